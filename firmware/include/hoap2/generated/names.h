@@ -1,0 +1,7 @@
+/* Generated from firmware/signals.toml and firmware/hoap2.json by ./hoap2 generate: do not edit. */
+#ifndef HOAP2_GENERATED_NAMES_H
+#define HOAP2_GENERATED_NAMES_H
+
+static const char *const HOAP2_JOINT_NAME[] = {"r_hip_yaw", "r_hip_roll", "r_hip_pitch", "r_knee", "r_ankle_pitch", "r_ankle_roll", "r_shoulder_pitch", "r_shoulder_roll", "r_shoulder_yaw", "r_elbow", "l_hip_yaw", "l_hip_roll", "l_hip_pitch", "l_knee", "l_ankle_pitch", "l_ankle_roll", "l_shoulder_pitch", "l_shoulder_roll", "l_shoulder_yaw", "l_elbow", "waist_pitch", "head_pan", "head_tilt", "r_hand", "l_hand"};
+static const char *const HOAP2_LINK_NAME[] = {"pelvis", "chest", "head_pan_link", "head", "r_shoulder_pitch_link", "r_shoulder_roll_link", "r_upper_arm", "r_forearm", "r_hand", "l_shoulder_pitch_link", "l_shoulder_roll_link", "l_upper_arm", "l_forearm", "l_hand", "r_hip_yaw_link", "r_hip_roll_link", "r_thigh", "r_shank", "r_ankle_link", "r_foot", "l_hip_yaw_link", "l_hip_roll_link", "l_thigh", "l_shank", "l_ankle_link", "l_foot"};
+#endif

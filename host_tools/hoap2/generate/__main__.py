@@ -1,0 +1,45 @@
+"""Write every generated file, or with --check say which are stale (exit 1)."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from . import c_headers, pages, urdf
+from .tables import ROOT, load
+
+
+def outputs() -> dict[str, str]:
+    """Path below the repository -> text."""
+    table = load()
+    firmware = "firmware/include/hoap2/generated"
+    return {
+        f"{firmware}/signals.h": c_headers.signals_header(table, "controller", "hoap2"),
+        f"{firmware}/robot_model.h": c_headers.robot_header(table),
+        f"{firmware}/names.h": c_headers.names_header(table),
+        "sim/include/hoap2_plant/generated/plant_signals.h": c_headers.signals_header(table, "plant", "hoap2_plant"),
+        "sim/model/hoap2.urdf": urdf.urdf(table),
+        "docs/generated/signals.md": pages.signals_page(table),
+    }
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="hoap2 generate", description=__doc__)
+    parser.add_argument("--check", action="store_true", help="write nothing; list stale files and exit 1 if any")
+    check = parser.parse_args().check
+    stale = []
+    for name, text in outputs().items():
+        path = ROOT / name
+        if path.exists() and path.read_text() == text:
+            continue
+        stale.append(name)
+        if not check:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+    for name in stale:
+        print(("stale: " if check else "wrote: ") + name)
+    return 1 if check and stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
