@@ -74,7 +74,9 @@ typedef struct {
   double start_pos_W_m[2]; /* where the robot starts: the point midway between the soles [m] */
   double start_yaw_W_rad; /* heading at the start [rad] */
   double calibrate_s; /* standing still while the gyro bias and the attitude are found [s] */
-  double posture_rad[25]; /* start posture; arms, waist and head keep it [rad] */
+  double start_up_s; /* from the start posture to the walking stance, before the calibration [s] */
+  double hip_height_m; /* pelvis origin above the soles in walking and standing [m] */
+  double posture_rad[25]; /* start posture; arms, waist and head keep it, the legs go to the walking stance [rad] */
   double step_length_m; /* L_x, advance a step [m] */
   double step_width_m; /* L_y, ankle to ankle [m] */
   double step_sideways_m; /* sideways advance a step (left positive), taken by the leading foot [m] */
@@ -99,7 +101,7 @@ typedef struct {
   double com_rate_filter_s; /* low-pass of the sensed CoM rate [s] */
   double contact_on_N; /* a foot is in contact above this force [N] */
   double contact_off_N; /* and out of contact below this one [N] */
-  double hold_s; /* references are held this long after a fault before the crouch [s] */
+  double hold_s; /* rest between the end of the step under way at a fault and the crouch [s] */
   double crouch_s; /* duration of the crouch to the safe posture [s] */
   double crouch_posture_rad[25]; /* safe posture after a fault [rad] */
   double servo_kp_Nm_rad[25]; /* drive stiffness in position mode (armature x velocity loop x position loop) [N.m/rad] */
@@ -114,7 +116,7 @@ typedef struct {
 } hoap2_params_t;
 
 static inline void hoap2_inputs_defaults(hoap2_inputs_t *p) {
-  { static const double v_[25] = {0.0, 0.0, -0.3490658503988659, 0.6981317007977318, -0.3839724354387525, 0.0, 1.5707963267948966, -0.17453292519943295, 0.17453292519943295, -0.4363323129985824, 0.0, 0.0, -0.3490658503988659, 0.6981317007977318, -0.3839724354387525, 0.0, 1.5707963267948966, 0.17453292519943295, -0.17453292519943295, -0.4363323129985824, 0.0, 0.0, 0.0, 0.0, 0.0};
+  { static const double v_[25] = {0.0, 0.0, -0.29717399332586975, 0.6951889664830044, -0.3980149731571346, 0.0, 1.5707963267948966, -0.17453292519943295, 0.17453292519943295, -0.4363323129985824, 0.0, 0.0, -0.29717399332586975, 0.6951889664830044, -0.3980149731571346, 0.0, 1.5707963267948966, 0.17453292519943295, -0.17453292519943295, -0.4363323129985824, 0.0, 0.0, 0.0, 0.0, 0.0};
     for (int i_ = 0; i_ < 25; ++i_) ((double *)(void *)&(p)->q_enc_rad)[i_] = v_[i_]; }
   for (int i_ = 0; i_ < 3; ++i_) ((double *)(void *)&(p)->gyro_S_rad_s)[i_] = 0.0;
   { static const double v_[3] = {0.0, 0.0, 9.81};
@@ -127,7 +129,9 @@ static inline void hoap2_params_defaults(hoap2_params_t *p) {
   for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->start_pos_W_m)[i_] = 0.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->start_yaw_W_rad)[i_] = 0.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->calibrate_s)[i_] = 1.0;
-  { static const double v_[25] = {0.0, 0.0, -0.3490658503988659, 0.6981317007977318, -0.3839724354387525, 0.0, 1.5707963267948966, -0.17453292519943295, 0.17453292519943295, -0.4363323129985824, 0.0, 0.0, -0.3490658503988659, 0.6981317007977318, -0.3839724354387525, 0.0, 1.5707963267948966, 0.17453292519943295, -0.17453292519943295, -0.4363323129985824, 0.0, 0.0, 0.0, 0.0, 0.0};
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->start_up_s)[i_] = 0.5;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->hip_height_m)[i_] = 0.2248;
+  { static const double v_[25] = {0.0, 0.0, -0.29717399332586975, 0.6951889664830044, -0.3980149731571346, 0.0, 1.5707963267948966, -0.17453292519943295, 0.17453292519943295, -0.4363323129985824, 0.0, 0.0, -0.29717399332586975, 0.6951889664830044, -0.3980149731571346, 0.0, 1.5707963267948966, 0.17453292519943295, -0.17453292519943295, -0.4363323129985824, 0.0, 0.0, 0.0, 0.0, 0.0};
     for (int i_ = 0; i_ < 25; ++i_) ((double *)(void *)&(p)->posture_rad)[i_] = v_[i_]; }
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->step_length_m)[i_] = 0.015;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->step_width_m)[i_] = 0.078;
@@ -175,6 +179,8 @@ static inline int hoap2_params_out_of_range(const hoap2_params_t *p) {
   for (int i_ = 0; i_ < 2; ++i_) { const double v_ = ((const double *)(const void *)&p->start_pos_W_m)[i_]; if (!(v_ >= -1000000.0 && v_ <= 1000000.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->start_yaw_W_rad)[i_]; if (!(v_ >= -7.0 && v_ <= 7.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->calibrate_s)[i_]; if (!(v_ >= 0.1 && v_ <= 10.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->start_up_s)[i_]; if (!(v_ >= 0.1 && v_ <= 10.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->hip_height_m)[i_]; if (!(v_ >= 0.15 && v_ <= 0.2365)) ++bad_; }
   for (int i_ = 0; i_ < 25; ++i_) { const double v_ = ((const double *)(const void *)&p->posture_rad)[i_]; if (!(v_ >= -3.2 && v_ <= 3.2)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->step_length_m)[i_]; if (!(v_ >= -0.08 && v_ <= 0.08)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->step_width_m)[i_]; if (!(v_ >= 0.068 && v_ <= 0.13)) ++bad_; }
