@@ -1,0 +1,38 @@
+"""Where the parts of a checkout and of its build are."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from hoap2.errors import UserError
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def build_dir() -> Path:
+    """The build in use: HOAP2_BUILD_DIR, or build/release."""
+    return Path(os.environ.get("HOAP2_BUILD_DIR") or ROOT / "build" / "release")
+
+
+def built(relative: str) -> Path:
+    """A built file, such as `sim/libhoap2_plant.so`; an error that says what to do when it is not there."""
+    path = build_dir() / relative
+    if not path.exists():
+        raise UserError(f"{path} is missing", "build it: ./hoap2 fmu build (or set HOAP2_BUILD_DIR)", exit_code=3)
+    return path
+
+
+def controller_library() -> Path:
+    """The controller's C interface."""
+    return built("firmware/libhoap2_controller.so")
+
+
+def plant_library() -> Path:
+    """The plant's C interface."""
+    return built("sim/libhoap2_plant.so")
+
+
+def fmu(product: str, fmi: int) -> Path:
+    """An FMU of this build: product `controller` or `plant`, fmi 2 or 3."""
+    return built(f"fmu/hoap2_{product}_fmi{fmi}.fmu")
