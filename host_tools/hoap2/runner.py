@@ -1,0 +1,141 @@
+"""One run from a resolved scenario to a finished run folder."""
+
+from __future__ import annotations
+
+import hashlib
+import subprocess
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import Console
+
+from hoap2 import __version__, bounds, master, metrics, parameters, toml_out
+from hoap2.generate.tables import PRODUCTS, ROOT
+from hoap2.progress import PartProgress, RunProgress
+from hoap2.runfolder import RunFolder
+from hoap2.scenario import Scenario
+from hoap2.signal_log import SignalLog
+
+EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
+
+
+@dataclass
+class Products:
+    """Both sides, initialised, and which files they came from."""
+
+    controller: master.Side
+    plant: master.Side
+    files: dict[str, Path]
+
+
+def ticks_of(scenario: Scenario) -> int:
+    return round(scenario.duration_s * 1e6 / parameters.table().tick_us)
+
+
+def git_describe() -> str:
+    """The checkout's state, or an empty text outside a repository."""
+    try:
+        done = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty", "--tags"],
+                              capture_output=True, text=True, timeout=10, check=False)  # fmt: skip
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return done.stdout.strip() if done.returncode == 0 else ""
+
+
+def peak_memory_mb() -> float | None:
+    """The largest resident size of this process so far (Linux)."""
+    try:
+        lines = Path("/proc/self/status").read_text().splitlines()
+    except OSError:
+        return None
+    return next((int(line.split()[1]) / 1024 for line in lines if line.startswith("VmHWM")), None)
+
+
+def resolved_toml(scenario: Scenario, files: dict[str, Path]) -> str:
+    """Everything that decides the run; `./hoap2 run <this file>` repeats it."""
+    document: dict[str, dict] = {
+        "scenario": {
+            "name": scenario.name, "title": scenario.title, "section": scenario.section, "text": scenario.text,
+            "duration_s": scenario.duration_s,
+        },
+        "run": dict(scenario.options),
+    }  # fmt: skip
+    for product in PRODUCTS:
+        known = parameters.known(product)
+        document[product] = {n: parameters.plain(known[n], v) for n, v in scenario.values[product].items()}
+    document["bounds"] = {n: {"min": b.low, "max": b.high} for n, b in scenario.bounds.items()}
+    record: dict = {"seed": scenario.seed, "version": __version__, "git": git_describe()}
+    for product, path in files.items():
+        record[f"{product}_file"] = path.name
+        record[f"{product}_sha256"] = hashlib.sha256(path.read_bytes()).hexdigest()
+    if scenario.draws:
+        record["draws"] = scenario.draws
+    document["record"] = record
+    return toml_out.dumps(document, "A run with all its resolved values. `./hoap2 run` takes this file as a scenario.")
+
+
+def summarise(scenario: Scenario, outcome: master.Outcome) -> dict:
+    """The content of summary.json."""
+    numbers = metrics.compute(outcome.log, scenario) if outcome.log.count else {}
+    verdict = bounds.judge(scenario.bounds, numbers)
+    complete = not outcome.interrupted and outcome.error is None
+    timing = outcome.timing.summary()
+    return {
+        "scenario": scenario.name,
+        "title": scenario.title,
+        "section": scenario.section,
+        "ok": complete and all(entry["ok"] for entry in verdict.values()),
+        "interrupted": outcome.interrupted,
+        "error": outcome.error,
+        "seed": scenario.seed,
+        "sense": scenario.sensors,
+        "duration_s": outcome.timing.ticks * parameters.table().tick_us / 1e6,
+        "duration_planned_s": scenario.duration_s,
+        **numbers,
+        **{key: timing[key] for key in ("real_time_factor", "controller_us", "plant_us", "exchange_and_log_us")},
+        "bounds": verdict,
+    }
+
+
+def exit_code(summary: dict) -> int:
+    """130 when stopped by a signal, 1 when an error ended the run or a bound is missed."""
+    if summary["interrupted"]:
+        return EXIT_INTERRUPTED
+    return EXIT_OK if summary["ok"] else EXIT_FAILED
+
+
+def execute(scenario: Scenario, products: Products, folder: RunFolder, console: Console, video: bool = True,
+            quiet: bool = False) -> dict:  # fmt: skip
+    """Run, judge, write every file, give the folder its name; returns the summary."""
+    title = scenario.name + (f" seed {scenario.seed}" if scenario.seed else "")
+    progress = None if quiet else RunProgress(title, scenario.duration_s, scenario.steps_planned, console)
+    with master.StopRequest() as stop:
+        try:
+            outcome = master.run(products.controller, products.plant, ticks_of(scenario),
+                                 scenario.options["stop_after_fall_s"], stop, progress)  # fmt: skip
+        finally:
+            if progress is not None:
+                progress.close()
+        summary = summarise(scenario, outcome)
+        folder.text("run.toml", resolved_toml(scenario, products.files))
+        outcome.log.write(folder.work / "signals.parquet")
+        finished = time.strftime("%Y-%m-%dT%H:%M:%S%z")
+        folder.json("timing.json", outcome.timing.summary() | {"finished": finished})
+        # From here on a stop request only leaves out what is still to come.
+        if video and outcome.log.count > 1 and stop.signal is None:
+            _video(folder, console, quiet, stop, summary)
+        summary["peak_memory_mb"] = peak_memory_mb()
+        _report(folder, scenario, outcome.log, summary, quiet, console)
+        folder.json("summary.json", summary)
+        path = folder.finish()
+    return summary | {"folder": str(path)}
+
+
+def _video(folder: RunFolder, console: Console, quiet: bool, stop: master.StopRequest, summary: dict) -> None:
+    """The video, or a note in the summary why there is none; a run is not lost for want of a picture."""
+
+
+def _report(folder: RunFolder, scenario: Scenario, log: SignalLog, summary: dict, quiet: bool,
+            console: Console) -> None:  # fmt: skip
+    """The report, or a note in the summary why there is none."""
