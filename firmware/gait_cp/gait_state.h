@@ -1,0 +1,59 @@
+/* Memory of the capture-point gait. Everything is in the start frame O. */
+#ifndef HOAP2_GAIT_CP_GAIT_STATE_H
+#define HOAP2_GAIT_CP_GAIT_STATE_H
+
+#include <stdint.h>
+
+#include "hoap2/generated/signals.h"
+#include "sense/sense_state.h"
+
+typedef struct {
+  /* pendulum constants */
+  double omega_1_s;  /* sqrt(g / com_height) */
+  double cosh_tick;  /* cosh and sinh of omega times one tick */
+  double sinh_tick;
+  double exp_tick;
+
+  /* footprints: x (m), y (m), yaw (rad) */
+  double centre[3];  /* walking centre: where the middle between the feet would be */
+  double foot[2][3]; /* where each foot stands or last stood */
+  double land[3];    /* landing target of the step under way */
+  double heading_from_rad;
+  double heading_to_rad;
+  double heading_rad; /* of the pelvis now */
+
+  /* plan of the step */
+  double com_m[2]; /* CoM of the plan, (7.13) */
+  double com_rate_m_s[2];
+  double cp_start_m[2]; /* (7.8) */
+  double cp_eos_m[2];
+  double cop_step_m[2]; /* desired CoP of the step, (7.9) after the clamp */
+  double cop_from_m[2]; /* CoP when the step began, for the ramp */
+  double cop_m[2];      /* desired CoP now */
+  double cp_ref_m[2];   /* (7.10) */
+
+  /* torso position compliance */
+  double cop_error_m[2];
+  double tpcc_m[2];
+  double tpcc_rate_m_s[2];
+
+  /* whole-body map */
+  double com_over_base_B_m[3]; /* CoM against the pelvis, last solution */
+  double q_ref_rad[HOAP2_SIZE_JOINT];
+  hoap2_feet_t feet;
+
+  int32_t phase;
+  int32_t step_index; /* 0 while the capture point travels to the first stance foot */
+  int32_t steps_done;
+  int32_t step_tick; /* ticks since the step began */
+  int32_t step_ticks;
+  int32_t swing_foot; /* 0 right, 1 left; 2 none */
+  int32_t walking;    /* 1 from the first shift to the end of the settling */
+  int32_t walk_done;
+  int32_t stop_requested; /* the step under way is the last */
+  int32_t pulled_back;    /* 1 when a leg target of this tick was out of reach */
+  int32_t joint_limit;    /* 1 when a leg target of this tick met a joint limit */
+  int32_t feedback;       /* 1: sensed values are used, 0: open loop */
+} hoap2_gait_t;
+
+#endif

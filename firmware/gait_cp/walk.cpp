@@ -1,0 +1,191 @@
+#include <string.h>
+
+#include "core/quintic.h"
+#include "core/scalar_math.h"
+#include "gait_cp/capture_point.hpp"
+#include "gait_cp/footprints.hpp"
+#include "gait_cp/gait_cp.h"
+#include "gait_cp/support_polygon.hpp"
+#include "gait_cp/swing.hpp"
+#include "gait_cp/tpcc.hpp"
+#include "gait_cp/walk_plan.hpp"
+#include "robot/body_map.hpp"
+
+namespace hoap2 {
+namespace {
+
+constexpr double kGravity_m_s2 = 9.81;
+constexpr int kReachSteps = 8;            // a step's geometry repeats after two steps
+constexpr double kReachExcess_m = 2e-4;   // draw-back of a leg that counts as out of reach
+constexpr double kSoleClearance_m = 2e-3; // least gap between the soles in a landing
+
+double step_time_s(const hoap2_gait_t& gait) { return gait.step_tick * kTick_s; }
+
+// (7.11): horizon to the end of the step, floored because the law is singular there.
+// (7.12): horizon of one control period, towards (7.10) at its end.
+void controlled_cop(const hoap2_params_t& params, const hoap2_sense_t& sense, hoap2_gait_t& gait) {
+  const bool cps = params.cp_controller == HOAP2_CP_CONTROLLER_CPS;
+  const double left_s = (gait.step_ticks - gait.step_tick) * kTick_s;
+  const double horizon_s =
+      cps ? (left_s > params.cps_min_dt_s ? left_s : params.cps_min_dt_s) : params.cpt_dt_s;
+  const double growth = hoap2_exp(gait.omega_1_s * horizon_s);
+  double cop[2];
+  double target[2];
+  for (int i = 0; i < 2; ++i) {
+    target[i] = cps ? gait.cp_eos_m[i] : capture_point_after(gait.cp_ref_m[i], gait.cop_step_m[i], growth);
+    cop[i] = cop_for_capture_point(target[i], sense.cp_O_m[i], growth);
+  }
+  const SupportPolygon polygon =
+      gait.swing_foot == 2 ? hull_of_soles(gait.foot[0], gait.foot[1], params.cop_margin_m)
+                           : sole_polygon(gait.foot[1 - gait.swing_foot], params.cop_margin_m);
+  const Point2 inside =
+      clamp_cop(polygon, {cop[0], cop[1]}, {sense.cp_O_m[0], sense.cp_O_m[1]}, {target[0], target[1]});
+  gait.cop_m[0] = inside.x;
+  gait.cop_m[1] = inside.y;
+}
+
+void planned_cop(const hoap2_params_t& params, hoap2_gait_t& gait) {
+  const bool ramp = params.cop_profile == HOAP2_COP_PROFILE_RAMP;
+  // the mean of the ramp over the tick to come
+  const double done = ramp ? (step_time_s(gait) + 0.5 * kTick_s) / params.cop_ramp_s : 1.0;
+  const double share = done < 1.0 ? done : 1.0;
+  for (int i = 0; i < 2; ++i) gait.cop_m[i] = gait.cop_from_m[i] + share * (gait.cop_step_m[i] - gait.cop_from_m[i]);
+}
+
+// One tick of the pendulum: (7.13) and (7.10), composed tick by tick (exact for a CoP held over the tick).
+void pendulum_tick(hoap2_gait_t& gait) {
+  for (int i = 0; i < 2; ++i) {
+    pendulum_after(gait.cop_m[i], gait.omega_1_s, gait.cosh_tick, gait.sinh_tick, gait.com_m[i], gait.com_rate_m_s[i]);
+    gait.cp_ref_m[i] = capture_point_after(gait.cp_ref_m[i], gait.cop_step_m[i], gait.exp_tick);
+  }
+}
+
+void stand_still(hoap2_gait_t& gait) {
+  for (int i = 0; i < 2; ++i) {
+    gait.cop_m[i] = gait.cop_step_m[i] = gait.com_m[i];
+    gait.com_rate_m_s[i] = 0.0;
+    gait.cp_ref_m[i] = gait.cp_eos_m[i] = gait.com_m[i];
+  }
+  gait.phase = HOAP2_PHASE_STAND;
+}
+
+// What follows when a step, the shift or the settling has run its time.
+void next_event(const hoap2_params_t& params, hoap2_gait_t& gait) {
+  const int32_t total = params.steps_forward + params.steps_in_place;
+  const bool settling = gait.swing_foot == 2 && gait.step_index > 0;
+  if (settling) {
+    gait.walking = 0;
+    gait.walk_done = gait.steps_done == total;
+    stand_still(gait);
+    return;
+  }
+  if (gait.swing_foot != 2) end_step(gait);
+  if (gait.steps_done >= total || gait.stop_requested) {
+    if (gait.step_index == 0) gait.step_index = 1;  // stopped before the first lift
+    begin_settling(params, gait);
+  } else {
+    begin_step(params, gait);
+  }
+}
+
+// Feet of this tick: phase, swing foot, heading.
+void place_feet(const hoap2_params_t& params, hoap2_gait_t& gait) {
+  double phase = 0.0;
+  if (gait.swing_foot != 2) {
+    const double along = static_cast<double>(gait.step_tick) / gait.step_ticks;
+    phase = (along - params.ds_fraction) / (1.0 - 2.0 * params.ds_fraction);
+    gait.phase = phase > 0.0 && phase < 1.0 ? HOAP2_PHASE_SINGLE_SUPPORT : HOAP2_PHASE_DOUBLE_SUPPORT;
+    gait.heading_rad = gait.heading_from_rad + hoap2_quintic(along) * (gait.heading_to_rad - gait.heading_from_rad);
+  }
+  for (int foot = 0; foot < 2; ++foot) {
+    const bool swings = foot == gait.swing_foot;
+    double pose[4] = {gait.foot[foot][0], gait.foot[foot][1], 0.0, gait.foot[foot][2]};
+    if (swings) swing_foot(gait.foot[foot], gait.land, params.lift_m, phase, pose);
+    for (int i = 0; i < 3; ++i) gait.feet.pos_O_m[foot][i] = pose[i];
+    gait.feet.yaw_O_rad[foot] = pose[3];
+    gait.feet.support[foot] = !(swings && gait.phase == HOAP2_PHASE_SINGLE_SUPPORT);
+  }
+}
+
+void map_to_joints(const hoap2_params_t& params, int passes, hoap2_gait_t& gait) {
+  BodyTarget target;
+  for (int i = 0; i < 2; ++i) target.com_O_m[i] = gait.com_m[i] + gait.tpcc_m[i];
+  target.hip_height_m = params.hip_height_m;
+  target.heading_rad = gait.heading_rad;
+  for (int foot = 0; foot < 2; ++foot) {
+    for (int i = 0; i < 3; ++i) target.foot_O_m[foot][i] = gait.feet.pos_O_m[foot][i];
+    target.foot_yaw_rad[foot] = gait.feet.yaw_O_rad[foot];
+  }
+  const BodyMapResult result = body_map(target, passes, gait.com_over_base_B_m, gait.q_ref_rad);
+  gait.pulled_back = result.excess_m > kReachExcess_m;
+  gait.joint_limit = result.joint_limit;
+}
+
+}  // namespace
+}  // namespace hoap2
+
+extern "C" {
+
+void hoap2_gait_reset(const hoap2_params_t* params, hoap2_gait_t* gait) {
+  memset(gait, 0, sizeof *gait);
+  for (int foot = 0; foot < 2; ++foot)
+    hoap2::footprint_beside(gait->centre, foot, HOAP2_STEP_WIDTH_M, gait->foot[foot]);
+  hoap2::capture_point_between(*params, gait->foot[0], gait->foot[1], gait->com_m);
+  gait->swing_foot = 2;
+  for (int i = 0; i < HOAP2_SIZE_JOINT; ++i) gait->q_ref_rad[i] = params->posture_rad[i];
+  hoap2::stand_still(*gait);
+  hoap2::place_feet(*params, *gait);
+  hoap2::map_to_joints(*params, 30, *gait);
+  const double com_height_m = params->hip_height_m + gait->com_over_base_B_m[2];
+  gait->omega_1_s = hoap2_sqrt(hoap2::kGravity_m_s2 / com_height_m);
+  gait->exp_tick = hoap2_exp(gait->omega_1_s * hoap2::kTick_s);
+  gait->cosh_tick = 0.5 * (gait->exp_tick + 1.0 / gait->exp_tick);
+  gait->sinh_tick = 0.5 * (gait->exp_tick - 1.0 / gait->exp_tick);
+  hoap2::stand_still(*gait);
+}
+
+int32_t hoap2_gait_check_reach(const hoap2_params_t* params, const hoap2_gait_t* gait) {
+  if (gait->pulled_back || gait->joint_limit) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
+  if (params->behaviour != HOAP2_BEHAVIOUR_WALK_CP) return 0;
+  hoap2_params_t trial_params = *params;
+  trial_params.cp_controller = HOAP2_CP_CONTROLLER_PLAN;
+  hoap2_gait_t trial = *gait;
+  hoap2_sense_t blind;
+  memset(&blind, 0, sizeof blind);
+  trial.feedback = 0;
+  hoap2_gait_start(&trial_params, &trial);
+  const int32_t ticks = hoap2::step_ticks(params->start_shift_s) + hoap2::kReachSteps * hoap2::step_ticks(params->step_time_s);
+  for (int32_t tick = 0; tick < ticks && trial.walking; ++tick) {
+    hoap2_gait_step(&trial_params, &blind, &trial);
+    if (trial.pulled_back || trial.joint_limit) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
+    if (trial.swing_foot != 2 &&
+        hoap2::sole_clearance(trial.foot[1 - trial.swing_foot], 1 - trial.swing_foot, trial.land) < hoap2::kSoleClearance_m)
+      return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
+  }
+  return 0;
+}
+
+void hoap2_gait_start(const hoap2_params_t* params, hoap2_gait_t* gait) {
+  if (params->steps_forward + params->steps_in_place <= 0) {
+    gait->walk_done = 1;
+    return;
+  }
+  hoap2::begin_shift(*params, *gait);
+}
+
+void hoap2_gait_step(const hoap2_params_t* params, const hoap2_sense_t* sense, hoap2_gait_t* gait) {
+  if (gait->walking) {
+    if (params->cp_controller == HOAP2_CP_CONTROLLER_PLAN || !gait->feedback)
+      hoap2::planned_cop(*params, *gait);
+    else
+      hoap2::controlled_cop(*params, *sense, *gait);
+    hoap2::pendulum_tick(*gait);
+    ++gait->step_tick;
+    if (gait->step_tick >= gait->step_ticks) hoap2::next_event(*params, *gait);
+  }
+  hoap2::place_feet(*params, *gait);
+  hoap2::tpcc_step(*params, sense->cop_O_m, gait->feedback != 0, *gait);
+  hoap2::map_to_joints(*params, 2, *gait);
+}
+
+}  // extern "C"

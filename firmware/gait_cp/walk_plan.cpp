@@ -1,0 +1,93 @@
+#include "gait_cp/walk_plan.hpp"
+
+#include "core/scalar_math.h"
+#include "gait_cp/capture_point.hpp"
+#include "gait_cp/footprints.hpp"
+#include "gait_cp/support_polygon.hpp"
+
+namespace hoap2 {
+namespace {
+
+int other(int foot) { return 1 - foot; }
+
+// (7.8), (7.9) or its ramp form, and the clamp of 7.2.2 d.
+void plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, double duration_s, hoap2_gait_t& gait) {
+  const double growth = hoap2_exp(gait.omega_1_s * duration_s);
+  double cop[2];
+  for (int i = 0; i < 2; ++i) {
+    gait.cp_start_m[i] = gait.com_m[i] + gait.com_rate_m_s[i] / gait.omega_1_s;
+    gait.cp_ref_m[i] = gait.cp_start_m[i];
+    gait.cop_from_m[i] = gait.cop_m[i];
+    cop[i] = params.cop_profile == HOAP2_COP_PROFILE_RAMP
+                 ? cop_for_ramp(gait.cp_eos_m[i], gait.cp_start_m[i], gait.cop_from_m[i], gait.omega_1_s, duration_s,
+                                params.cop_ramp_s)
+                 : cop_for_capture_point(gait.cp_eos_m[i], gait.cp_start_m[i], growth);
+  }
+  const Point2 inside = clamp_cop(polygon, {cop[0], cop[1]}, {gait.cp_start_m[0], gait.cp_start_m[1]},
+                                  {gait.cp_eos_m[0], gait.cp_eos_m[1]});
+  gait.cop_step_m[0] = inside.x;
+  gait.cop_step_m[1] = inside.y;
+}
+
+}  // namespace
+
+int32_t step_ticks(double duration_s) { return static_cast<int32_t>(duration_s / kTick_s + 0.5); }
+
+void begin_shift(const hoap2_params_t& params, hoap2_gait_t& gait) {
+  const int stance = other(params.first_swing_foot);
+  gait.walking = 1;
+  gait.walk_done = 0;
+  gait.step_index = 0;
+  gait.steps_done = 0;
+  gait.step_tick = 0;
+  gait.step_ticks = step_ticks(params.start_shift_s);
+  gait.swing_foot = 2;
+  gait.phase = HOAP2_PHASE_DOUBLE_SUPPORT;
+  capture_point_over(params, gait.foot[stance], stance, gait.cp_eos_m);
+  for (int i = 0; i < 3; ++i) gait.land[i] = gait.foot[params.first_swing_foot][i];
+  plan_cop(params, hull_of_soles(gait.foot[0], gait.foot[1], params.cop_margin_m), params.start_shift_s, gait);
+}
+
+void begin_step(const hoap2_params_t& params, hoap2_gait_t& gait) {
+  const int swing = gait.step_index == 0 ? params.first_swing_foot : other(gait.swing_foot);
+  const int stance = other(swing);
+  const bool last = gait.step_index + 1 == params.steps_forward + params.steps_in_place;
+  ++gait.step_index;
+  gait.swing_foot = swing;
+  gait.step_tick = 0;
+  gait.step_ticks = step_ticks(params.step_time_s);
+  advance_centre(params, swing, gait.step_index > params.steps_forward, gait.centre);
+  footprint_beside(gait.centre, swing, params.step_width_m, gait.land);
+  gait.heading_from_rad = gait.heading_rad;
+  gait.heading_to_rad = 0.5 * (gait.foot[stance][2] + gait.land[2]);
+  if (last) {
+    const double* right = swing == 0 ? gait.land : gait.foot[0];
+    const double* left = swing == 1 ? gait.land : gait.foot[1];
+    capture_point_between(params, right, left, gait.cp_eos_m);
+  } else {
+    capture_point_over(params, gait.land, swing, gait.cp_eos_m);
+  }
+  plan_cop(params, sole_polygon(gait.foot[stance], params.cop_margin_m), params.step_time_s, gait);
+}
+
+void end_step(hoap2_gait_t& gait) {
+  for (int i = 0; i < 3; ++i) gait.foot[gait.swing_foot][i] = gait.land[i];
+  ++gait.steps_done;
+}
+
+void begin_settling(const hoap2_params_t& params, hoap2_gait_t& gait) {
+  gait.step_tick = 0;
+  gait.step_ticks = step_ticks(4.0 / gait.omega_1_s);
+  gait.phase = HOAP2_PHASE_DOUBLE_SUPPORT;
+  const SupportPolygon polygon = hull_of_soles(gait.foot[0], gait.foot[1], params.cop_margin_m);
+  const Point2 cp = {gait.com_m[0] + gait.com_rate_m_s[0] / gait.omega_1_s,
+                     gait.com_m[1] + gait.com_rate_m_s[1] / gait.omega_1_s};
+  const Point2 inside = clamp_cop(polygon, cp, cp, cp);
+  for (int i = 0; i < 2; ++i) {
+    gait.cp_start_m[i] = gait.cp_ref_m[i] = i == 0 ? cp.x : cp.y;
+    gait.cop_step_m[i] = gait.cop_from_m[i] = gait.cp_eos_m[i] = i == 0 ? inside.x : inside.y;
+  }
+  gait.swing_foot = 2;
+}
+
+}  // namespace hoap2

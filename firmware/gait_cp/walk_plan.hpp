@@ -1,0 +1,27 @@
+// Events of the walk: what is decided when a step begins and ends.
+#ifndef HOAP2_GAIT_CP_WALK_PLAN_HPP
+#define HOAP2_GAIT_CP_WALK_PLAN_HPP
+
+#include "gait_cp/gait_state.h"
+
+namespace hoap2 {
+
+constexpr double kTick_s = 1e-6 * HOAP2_TICK_US;
+
+// The shift before the first lift: the capture point goes to the first stance foot (step index 0).
+void begin_shift(const hoap2_params_t& params, hoap2_gait_t& gait);
+
+// Step number step_index + 1: landing target, end-of-step capture point, CoP (7.9), clamp.
+void begin_step(const hoap2_params_t& params, hoap2_gait_t& gait);
+
+// The swing foot has landed.
+void end_step(hoap2_gait_t& gait);
+
+// After the last step: the CoP stays where the capture point is, and the CoM comes to rest there.
+void begin_settling(const hoap2_params_t& params, hoap2_gait_t& gait);
+
+// Duration of a step or of the shift in ticks.
+int32_t step_ticks(double duration_s);
+
+}  // namespace hoap2
+#endif
