@@ -55,11 +55,14 @@ void forward_kinematics(const double q_rad[HOAP2_JOINTS], Kinematics& kin) {
   place_chain<HOAP2_J_L_SHOULDER_PITCH, HOAP2_J_L_SHOULDER_ROLL, HOAP2_J_L_SHOULDER_YAW, HOAP2_J_L_ELBOW,
               HOAP2_J_L_HAND>(q_rad, kin);
 
+  // The sum of the links' masses, not the rounded total of the data sheet.
+  double total_kg = 0.0;
   Vec3 moment_B = Vec3::Zero();
   for (int link = 0; link < HOAP2_LINKS; ++link) {
+    total_kg += HOAP2_LINK[link].mass_kg;
     moment_B += HOAP2_LINK[link].mass_kg * link_com_B(kin, link);
   }
-  kin.com_B = moment_B / HOAP2_TOTAL_MASS_KG;
+  kin.com_B = moment_B / total_kg;
 }
 
 Pose sole_pose_B(const Kinematics& kin, int foot) {
@@ -84,10 +87,11 @@ void com_jacobian_B(const Kinematics& kin, ComJacobian& jacobian) {
     const hoap2_joint_data_t& joint = HOAP2_JOINT[j];
     const Pose& pose = kin.link_B[joint.child_link];
     const Vec3 lever_B = moment_B[joint.child_link] - mass_kg[joint.child_link] * pose.p;
-    jacobian.col(j) = pose.R.col(joint.axis).cross(lever_B) / HOAP2_TOTAL_MASS_KG;
+    jacobian.col(j) = pose.R.col(joint.axis).cross(lever_B);
     mass_kg[joint.parent_link] += mass_kg[joint.child_link];
     moment_B[joint.parent_link] += moment_B[joint.child_link];
   }
+  jacobian /= mass_kg[HOAP2_L_PELVIS];
 }
 
 // From the link down to the pelvis: in reversed tree order every joint comes before those that carry it, so
