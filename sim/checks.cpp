@@ -1,0 +1,114 @@
+#include "checks.h"
+
+#include <cmath>
+
+#include "drive/drive.h"
+#include "hoap2/generated/names.h"
+
+namespace hoap2_sim {
+namespace {
+
+// No drive command is meaningful beyond this; keeps sums and products finite.
+constexpr double kInputLimit = 1e6;
+// A body faster than this has left physics.
+constexpr double kSpeedLimit = 1e4;
+constexpr double kPostureTolerance_rad = 1e-6;
+
+// The generated range check only counts: find the parameter by putting the default
+// back, one parameter at a time, and seeing the count fall.
+#define HOAP2_TRY(name)                                                                     \
+  do {                                                                                      \
+    hoap2_plant_params_t trial_ = params;                                                   \
+    for (std::size_t i_ = 0; i_ < sizeof trial_.name; ++i_) {                               \
+      reinterpret_cast<char *>(&trial_.name)[i_] = reinterpret_cast<const char *>(&good.name)[i_]; \
+    }                                                                                       \
+    if (hoap2_plant_params_out_of_range(&trial_) < bad) return #name;                       \
+  } while (false)
+
+const char *name_of_bad_parameter(const hoap2_plant_params_t &params, int bad) {
+  hoap2_plant_params_t good = {};
+  hoap2_plant_params_defaults(&good);
+  HOAP2_TRY(start_pos_W_m);
+  HOAP2_TRY(start_yaw_W_rad);
+  HOAP2_TRY(start_height_m);
+  HOAP2_TRY(start_posture_rad);
+  HOAP2_TRY(start_vel_W_m_s);
+  HOAP2_TRY(start_omega_W_rad_s);
+  HOAP2_TRY(gravity_m_s2);
+  HOAP2_TRY(gyro_bias_S_rad_s);
+  HOAP2_TRY(cell_gain);
+  HOAP2_TRY(chest_com_shift_L_m);
+  HOAP2_TRY(floor_tilt_rad);
+  HOAP2_TRY(friction_mu);
+  HOAP2_TRY(block_centre_W_m);
+  HOAP2_TRY(block_size_m);
+  HOAP2_TRY(block_yaw_W_rad);
+  HOAP2_TRY(joint_friction_scale);
+  HOAP2_TRY(roll_stiffness_Nm_rad);
+  HOAP2_TRY(roll_damping_Nms_rad);
+  HOAP2_TRY(push_force_W_N);
+  HOAP2_TRY(push_point_L_m);
+  HOAP2_TRY(push_start_s);
+  HOAP2_TRY(push_duration_s);
+  HOAP2_TRY(push_ramp_s);
+  HOAP2_TRY(seed);
+  HOAP2_TRY(sensor_preset);
+  HOAP2_TRY(block_count);
+  HOAP2_TRY(push_link);
+  return "a parameter";
+}
+#undef HOAP2_TRY
+
+std::string input_fault(const char *signal, int joint) {
+  return std::string("input ") + signal + " of joint " + HOAP2_JOINT_NAME[joint] + " is not usable";
+}
+
+}  // namespace
+
+std::string fault_of_params(const hoap2_plant_params_t &params) {
+  const int bad = hoap2_plant_params_out_of_range(&params);
+  if (bad != 0) {
+    return std::string("parameter ") + name_of_bad_parameter(params, bad) +
+           " is out of its range (see docs/generated/signals.md)";
+  }
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    const double *const hard_rad = HOAP2_JOINT[j].limit_hard_rad;
+    const double q_rad = params.start_posture_rad[j];
+    if (q_rad < hard_rad[0] - kPostureTolerance_rad || q_rad > hard_rad[1] + kPostureTolerance_rad) {
+      return std::string("parameter start_posture_rad: joint ") + HOAP2_JOINT_NAME[j] +
+             " starts beyond its mechanical stop";
+    }
+  }
+  return "";
+}
+
+std::string fault_of_inputs(const hoap2_plant_inputs_t &in) {
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    // Written so that NaN fails.
+    if (!(std::fabs(in.q_ref_rad[j]) <= kInputLimit)) return input_fault("q_ref_rad", j);
+    if (!(std::fabs(in.qd_ref_rad_s[j]) <= kInputLimit)) return input_fault("qd_ref_rad_s", j);
+    if (!(std::fabs(in.tau_ff_Nm[j]) <= kInputLimit)) return input_fault("tau_ff_Nm", j);
+    if (!(in.kp_Nm_rad[j] >= 0.0 && in.kp_Nm_rad[j] <= kInputLimit)) return input_fault("kp_Nm_rad", j);
+    if (!(in.kd_Nms_rad[j] >= 0.0 && in.kd_Nms_rad[j] <= kInputLimit)) return input_fault("kd_Nms_rad", j);
+    if (in.drive_mode[j] < 0 || in.drive_mode[j] >= kDriveModes) return input_fault("drive_mode", j);
+  }
+  return "";
+}
+
+std::string fault_of_bodies(const State &state) {
+  for (int link = 0; link < HOAP2_LINKS; ++link) {
+    const BodyState &body = state.body[link];
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      sum += std::fabs(body.com_vel_W_m_s[i]) + std::fabs(body.omega_W_rad_s[i]) + 0.0 * body.com_pos_W_m[i];
+    }
+    for (int i = 0; i < 4; ++i) sum += 0.0 * body.quat_W[i];
+    if (!(sum <= kSpeedLimit)) {
+      return std::string("the simulation diverged at link ") + HOAP2_LINK_NAME[link] +
+             "; the state before this tick is kept";
+    }
+  }
+  return "";
+}
+
+}  // namespace hoap2_sim

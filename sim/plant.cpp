@@ -1,0 +1,236 @@
+// The plant's C interface and its tick.
+#include "hoap2_plant/plant.h"
+
+#include <cstddef>
+#include <cstring>
+#include <new>
+#include <string>
+
+#include "checks.h"
+#include "drive/drive.h"
+#include "ode_runtime.h"
+#include "push/push.h"
+#include "robot/engine.h"
+#include "robot/kinematics.h"
+#include "sensors/sensors.h"
+#include "terrain/contact.h"
+#include "truth/truth.h"
+
+namespace hoap2_sim {
+
+// Torque limits make a tick's equations piecewise linear; it is solved again with
+// other rows at their limits until they agree with its result, at most this often.
+constexpr int kMaxSolves = 8;
+
+class Plant {
+ public:
+  int init(const hoap2_plant_params_t &params);
+  int step(const hoap2_plant_inputs_t &inputs);
+  int restore(const void *state);
+  const State &state() const { return state_; }
+  const char *error() const { return error_; }
+
+ private:
+  int fail(const std::string &text);
+  void build();
+  void apply_pushes(State *next);
+  void solve(const hoap2_plant_inputs_t &inputs, State *next);
+  bool correct_saturation(const double rate_rad_s[HOAP2_JOINTS], bool may_release);
+  void gather_contacts(State *next) const;
+
+  State state_ = {};
+  Engine engine_;
+  Ground ground_;
+  ContactList contacts_;
+  Drive drive_[HOAP2_JOINTS];
+  char error_[256] = "";
+};
+
+int Plant::fail(const std::string &text) {
+  std::strncpy(error_, text.c_str(), sizeof error_ - 1);
+  error_[sizeof error_ - 1] = '\0';
+  return 1;
+}
+
+void Plant::build() {
+  engine_.build(state_.params);
+  ground_.build(state_.params);
+}
+
+int Plant::init(const hoap2_plant_params_t &params) {
+  const std::string fault = fault_of_params(params);
+  if (!fault.empty()) return fail(fault);
+  std::memset(static_cast<void *>(&state_), 0, sizeof state_);
+  state_.magic = kStateMagic;
+  state_.version = kStateVersion;
+  state_.size = sizeof(State);
+  // Up to the end of the last member: padding stays zero, equal states have equal bytes.
+  constexpr std::size_t kUsed = offsetof(hoap2_plant_params_t, push_link) + sizeof params.push_link;
+  std::memcpy(&state_.params, &params, kUsed);
+  place_robot(&state_);
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    state_.drive[j] = {joint_angle_rad(state_, j), joint_rate_rad_s(state_, j), 0.0};
+  }
+  for (int k = 0; k < 2; ++k) {  // before the first contact: midway between the soles
+    state_.cop_W_m[k] = 0.5 * (sole_point_W_m(state_, 0)[k] + sole_point_W_m(state_, 1)[k]);
+  }
+  sensors_start(&state_);
+  build();
+  error_[0] = '\0';
+  return 0;
+}
+
+int Plant::restore(const void *bytes) {
+  State saved;
+  std::memcpy(&saved, bytes, sizeof saved);
+  if (saved.magic != kStateMagic || saved.version != kStateVersion || saved.size != sizeof(State)) {
+    return fail("the block is not a plant state of this version");
+  }
+  const bool same_world = engine_.built() && std::memcmp(&saved.params, &state_.params, sizeof saved.params) == 0;
+  state_ = saved;
+  if (!same_world) build();
+  error_[0] = '\0';
+  return 0;
+}
+
+void Plant::apply_pushes(State *next) {
+  put(Vec3{}, next->push_force_W_N);
+  for (int i = 0; i < kPushes; ++i) {
+    double force_W_N[3], point_now_W_m[3];
+    push_force(state_.params, state_.tick, i, force_W_N);
+    if (force_W_N[0] == 0.0 && force_W_N[1] == 0.0 && force_W_N[2] == 0.0) continue;
+    const int link = state_.params.push_link[i];
+    put(point_W_m(state_, link, vec(state_.params.push_point_L_m[i])), point_now_W_m);
+    engine_.add_force(link, force_W_N, point_now_W_m);
+    for (int k = 0; k < 3; ++k) next->push_force_W_N[k] += force_W_N[k];
+  }
+}
+
+// Puts rows at their torque limits, or (first time) releases them, as the rates ask
+// for. True when something changed.
+bool Plant::correct_saturation(const double rate_rad_s[HOAP2_JOINTS], bool may_release) {
+  bool changed = false;
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    const int wanted = drive_[j].wanted_saturation(rate_rad_s[j]);
+    if (wanted == drive_[j].saturation()) continue;
+    if (!may_release && drive_[j].saturation() != 0) continue;
+    drive_[j].saturate(wanted);
+    changed = true;
+  }
+  return changed;
+}
+
+void Plant::solve(const hoap2_plant_inputs_t &inputs, State *next) {
+  double axis_W[HOAP2_JOINTS][3], rate_rad_s[HOAP2_JOINTS];
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    drive_[j].begin(state_, inputs, j);
+    put(link_axes_W(state_, HOAP2_JOINT[j].child_link).column(HOAP2_JOINT[j].axis), axis_W[j]);
+  }
+  ground_.find_contacts(state_, &contacts_);
+  engine_.set_contacts(contacts_, state_.params.friction_mu);
+  for (int solves = 1; solves <= kMaxSolves; ++solves) {
+    engine_.write(state_);
+    apply_pushes(next);
+    for (int j = 0; j < HOAP2_JOINTS; ++j) engine_.set_motor(j, drive_[j].row());
+    engine_.step();
+    engine_.row_rates(axis_W, rate_rad_s);
+    if (solves == kMaxSolves || !correct_saturation(rate_rad_s, solves == 1)) break;
+  }
+  engine_.read(next);
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    next->drive[j] = drive_[j].finish(joint_angle_rad(*next, j), rate_rad_s[j]);
+  }
+}
+
+// Sum of the contact loads on each foot about the sole point of the tick's start.
+void Plant::gather_contacts(State *next) const {
+  next->other_contacts = 0;
+  for (FootWrench &wrench : next->foot) wrench = FootWrench{};
+  for (int i = 0; i < contacts_.count; ++i) {
+    const int link = contacts_.at[i].link;
+    if (!is_foot(link)) {
+      ++next->other_contacts;
+      continue;
+    }
+    const int foot = link == kFootLink[0] ? 0 : 1;
+    double force_W_N[3], moment_com_W_Nm[3];
+    engine_.contact_load(i, force_W_N, moment_com_W_Nm);
+    const Vec3 arm_W_m = vec(state_.body[link].com_pos_W_m) - sole_point_W_m(state_, foot);
+    const Vec3 moment_W_Nm = vec(moment_com_W_Nm) + cross(arm_W_m, vec(force_W_N));
+    FootWrench &wrench = next->foot[foot];
+    put(vec(wrench.force_W_N) + vec(force_W_N), wrench.force_W_N);
+    put(vec(wrench.moment_W_Nm) + moment_W_Nm, wrench.moment_W_Nm);
+  }
+}
+
+int Plant::step(const hoap2_plant_inputs_t &inputs) {
+  if (!engine_.built()) return fail("step before init");
+  const std::string fault = fault_of_inputs(inputs);
+  if (!fault.empty()) return fail(fault);
+  use_ode_on_this_thread();
+  State next = state_;
+  try {
+    solve(inputs, &next);
+  } catch (const OdeFailure &failure) {
+    engine_.abandon();
+    build();
+    return fail(failure.what());
+  }
+  const std::string diverged = fault_of_bodies(next);
+  if (!diverged.empty()) return fail(diverged);
+  gather_contacts(&next);
+  update_cop(&next);
+  sensors_measure(&next);
+  ++next.tick;
+  state_ = next;
+  error_[0] = '\0';
+  return 0;
+}
+
+}  // namespace hoap2_sim
+
+struct hoap2_plant {
+  hoap2_sim::Plant plant;
+};
+
+#define HOAP2_EXPORT __attribute__((visibility("default")))
+
+extern "C" {
+
+HOAP2_EXPORT hoap2_plant_t *hoap2_plant_create(void) {
+  hoap2_sim::use_ode_on_this_thread();
+  return new (std::nothrow) hoap2_plant;
+}
+
+HOAP2_EXPORT void hoap2_plant_destroy(hoap2_plant_t *plant) {
+  hoap2_sim::use_ode_on_this_thread();
+  delete plant;
+}
+
+HOAP2_EXPORT int hoap2_plant_init(hoap2_plant_t *plant, const hoap2_plant_params_t *params) {
+  hoap2_sim::use_ode_on_this_thread();
+  return plant->plant.init(*params);
+}
+
+HOAP2_EXPORT int hoap2_plant_step(hoap2_plant_t *plant, const hoap2_plant_inputs_t *inputs) {
+  return plant->plant.step(*inputs);
+}
+
+HOAP2_EXPORT void hoap2_plant_get_outputs(const hoap2_plant_t *plant, hoap2_plant_outputs_t *outputs) {
+  hoap2_sim::fill_outputs(plant->plant.state(), outputs);
+}
+
+HOAP2_EXPORT size_t hoap2_plant_state_size(void) { return sizeof(hoap2_sim::State); }
+
+HOAP2_EXPORT void hoap2_plant_get_state(const hoap2_plant_t *plant, void *state) {
+  std::memcpy(state, &plant->plant.state(), sizeof(hoap2_sim::State));
+}
+
+HOAP2_EXPORT int hoap2_plant_set_state(hoap2_plant_t *plant, const void *state) {
+  hoap2_sim::use_ode_on_this_thread();
+  return plant->plant.restore(state);
+}
+
+HOAP2_EXPORT const char *hoap2_plant_error(const hoap2_plant_t *plant) { return plant->plant.error(); }
+
+}  // extern "C"

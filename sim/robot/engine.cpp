@@ -1,0 +1,174 @@
+#include "robot/engine.h"
+
+#include "robot/kinematics.h"
+
+namespace hoap2_sim {
+namespace {
+
+// Contact of a corner with the ground as a spring and a damper, solved implicitly:
+// erp = h k / (h k + d), cfm = 1 / (h k + d). 0.07 mm under the standing robot.
+constexpr double kContactStiffness_N_m = 5e5;
+constexpr double kContactDamping_Ns_m = 1500.0;
+constexpr double kContactRow_Ns_m = kTick_s * kContactStiffness_N_m + kContactDamping_Ns_m;
+// Creep of a loaded contact along the ground, per newton: regularises the friction
+// rows of a flat sole, which are redundant otherwise.
+constexpr double kContactSlip_m_Ns = 1e-6;
+constexpr double kWorldCfm = 1e-10;
+constexpr double kWorldErp = 0.2;
+
+dContact contact_of(const Contact &at, double friction_mu) {
+  dContact contact = {};
+  contact.surface.mode = dContactSoftERP | dContactSoftCFM | dContactApprox1 | dContactFDir1 | dContactSlip1 |
+                         dContactSlip2;
+  contact.surface.mu = friction_mu;
+  contact.surface.soft_erp = kTick_s * kContactStiffness_N_m / kContactRow_Ns_m;
+  contact.surface.soft_cfm = 1.0 / kContactRow_Ns_m;
+  contact.surface.slip1 = kContactSlip_m_Ns;
+  contact.surface.slip2 = kContactSlip_m_Ns;
+  for (int i = 0; i < 3; ++i) {
+    contact.geom.pos[i] = at.point_W_m[i];
+    contact.geom.normal[i] = at.normal_W[i];
+    contact.fdir1[i] = at.along_W[i];
+  }
+  contact.geom.depth = at.depth_m;
+  return contact;
+}
+
+}  // namespace
+
+Engine::~Engine() {
+  if (world_ == nullptr) return;
+  dJointGroupDestroy(contact_group_);
+  dWorldDestroy(world_);
+}
+
+void Engine::abandon() {
+  world_ = nullptr;
+  contact_group_ = nullptr;
+}
+
+void Engine::build(const hoap2_plant_params_t &params) {
+  if (world_ != nullptr) {
+    dJointGroupDestroy(contact_group_);
+    dWorldDestroy(world_);
+    abandon();
+  }
+  world_ = dWorldCreate();
+  contact_group_ = dJointGroupCreate(0);
+  dWorldSetGravity(world_, 0.0, 0.0, -params.gravity_m_s2);
+  dWorldSetCFM(world_, kWorldCfm);
+  dWorldSetERP(world_, kWorldErp);
+  dWorldSetAutoDisableFlag(world_, 0);
+  add_bodies(params);
+  add_hinges();
+}
+
+// The zero posture with the pelvis at the origin: all link frames are parallel to
+// the world, so anchors and axes enter the hinges without a rounding of rotations.
+void Engine::add_bodies(const hoap2_plant_params_t &params) {
+  const double zero_rad[HOAP2_JOINTS] = {};
+  LinkPose pose[HOAP2_LINKS];
+  link_poses_in_pelvis(zero_rad, pose);
+  for (int link = 0; link < HOAP2_LINKS; ++link) {
+    const hoap2_link_data_t &data = HOAP2_LINK[link];
+    const double *const inertia = data.inertia_C_kgm2;
+    body_[link] = dBodyCreate(world_);
+    dMass mass;
+    dMassSetParameters(&mass, data.mass_kg, 0.0, 0.0, 0.0, inertia[0], inertia[1], inertia[2], inertia[3],
+                       inertia[4], inertia[5]);
+    dBodySetMass(body_[link], &mass);
+    dBodySetGyroscopicMode(body_[link], 1);
+    dBodySetLinearDamping(body_[link], 0.0);
+    dBodySetAngularDamping(body_[link], 0.0);
+    const Vec3 com_W_m = pose[link].origin + link_com_L_m(params, link);
+    dBodySetPosition(body_[link], com_W_m.x, com_W_m.y, com_W_m.z);
+  }
+}
+
+void Engine::add_hinges() {
+  const double zero_rad[HOAP2_JOINTS] = {};
+  LinkPose pose[HOAP2_LINKS];
+  link_poses_in_pelvis(zero_rad, pose);
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    const hoap2_joint_data_t &data = HOAP2_JOINT[j];
+    const Vec3 anchor_W_m = pose[data.child_link].origin;
+    const Vec3 axis_W = unit_axis(data.axis);
+    hinge_[j] = dJointCreateHinge(world_, nullptr);
+    dJointAttach(hinge_[j], body_[data.child_link], body_[data.parent_link]);
+    dJointSetHingeAnchor(hinge_[j], anchor_W_m.x, anchor_W_m.y, anchor_W_m.z);
+    dJointSetHingeAxis(hinge_[j], axis_W.x, axis_W.y, axis_W.z);
+    dJointSetHingeParam(hinge_[j], dParamFMax, dInfinity);  // unbounded row; limits are in the drive's law
+  }
+}
+
+void Engine::write(const State &state) {
+  for (int link = 0; link < HOAP2_LINKS; ++link) {
+    const BodyState &s = state.body[link];
+    const dQuaternion quat_W = {s.quat_W[0], s.quat_W[1], s.quat_W[2], s.quat_W[3]};
+    dBodySetPosition(body_[link], s.com_pos_W_m[0], s.com_pos_W_m[1], s.com_pos_W_m[2]);
+    dBodySetQuaternion(body_[link], quat_W);
+    dBodySetLinearVel(body_[link], s.com_vel_W_m_s[0], s.com_vel_W_m_s[1], s.com_vel_W_m_s[2]);
+    dBodySetAngularVel(body_[link], s.omega_W_rad_s[0], s.omega_W_rad_s[1], s.omega_W_rad_s[2]);
+    dBodySetForce(body_[link], 0.0, 0.0, 0.0);
+    dBodySetTorque(body_[link], 0.0, 0.0, 0.0);
+  }
+}
+
+void Engine::add_force(int link, const double force_W_N[3], const double point_W_m[3]) {
+  dBodyAddForceAtPos(body_[link], force_W_N[0], force_W_N[1], force_W_N[2], point_W_m[0], point_W_m[1],
+                     point_W_m[2]);
+}
+
+// ODE's row reads J v+ = vel - cfm lambda with lambda the torque on the child link
+// (its cfm is divided by h inside, as v+ = v + h M^-1 (f + J^T lambda)).
+void Engine::set_motor(int joint, const MotorRow &row) {
+  dJointSetHingeParam(hinge_[joint], dParamCFM, 1.0 / row.stiffness_Nms_rad);
+  dJointSetHingeParam(hinge_[joint], dParamVel, row.target_rad_s);
+}
+
+void Engine::set_contacts(const ContactList &contacts, double friction_mu) {
+  dJointGroupEmpty(contact_group_);
+  for (int i = 0; i < contacts.count; ++i) {
+    const dContact contact = contact_of(contacts.at[i], friction_mu);
+    const dJointID joint = dJointCreateContact(world_, contact_group_, &contact);
+    dJointAttach(joint, body_[contacts.at[i].link], nullptr);
+    feedback_[i] = dJointFeedback{};
+    dJointSetFeedback(joint, &feedback_[i]);
+  }
+}
+
+void Engine::step() { dWorldStep(world_, kTick_s); }
+
+void Engine::read(State *state) const {
+  for (int link = 0; link < HOAP2_LINKS; ++link) {
+    BodyState &s = state->body[link];
+    const dReal *const pos = dBodyGetPosition(body_[link]);
+    const dReal *const quat_W = dBodyGetQuaternion(body_[link]);
+    const dReal *const vel = dBodyGetLinearVel(body_[link]);
+    const dReal *const omega = dBodyGetAngularVel(body_[link]);
+    for (int i = 0; i < 3; ++i) {
+      s.com_pos_W_m[i] = pos[i];
+      s.com_vel_W_m_s[i] = vel[i];
+      s.omega_W_rad_s[i] = omega[i];
+    }
+    for (int i = 0; i < 4; ++i) s.quat_W[i] = quat_W[i];
+  }
+}
+
+void Engine::row_rates(const double axis_W[HOAP2_JOINTS][3], double rate_rad_s[HOAP2_JOINTS]) const {
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    const dReal *const child = dBodyGetAngularVel(body_[HOAP2_JOINT[j].child_link]);
+    const dReal *const parent = dBodyGetAngularVel(body_[HOAP2_JOINT[j].parent_link]);
+    rate_rad_s[j] = 0.0;
+    for (int i = 0; i < 3; ++i) rate_rad_s[j] += axis_W[j][i] * (child[i] - parent[i]);
+  }
+}
+
+void Engine::contact_load(int i, double force_W_N[3], double moment_com_W_Nm[3]) const {
+  for (int k = 0; k < 3; ++k) {
+    force_W_N[k] = feedback_[i].f1[k];
+    moment_com_W_Nm[k] = feedback_[i].t1[k];
+  }
+}
+
+}  // namespace hoap2_sim

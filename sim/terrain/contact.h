@@ -1,0 +1,50 @@
+// Where links touch the ground: the sole boxes and the boxes of all other links
+// against the floor plane and the terrain blocks. Links do not touch each other.
+#ifndef HOAP2_SIM_TERRAIN_CONTACT_H
+#define HOAP2_SIM_TERRAIN_CONTACT_H
+
+#include <ode/ode.h>
+
+#include "plant_state.h"
+
+namespace hoap2_sim {
+
+constexpr int kMaxContacts = 160;
+
+struct Contact {
+  int link;
+  double point_W_m[3];
+  double normal_W[3];  // out of the ground
+  double along_W[3];   // first friction direction: the link's x axis along the ground
+  double depth_m;
+};
+
+struct ContactList {
+  int count = 0;
+  Contact at[kMaxContacts];
+};
+
+inline bool is_foot(int link) { return link == HOAP2_L_R_FOOT || link == HOAP2_L_L_FOOT; }
+
+class Ground {
+ public:
+  Ground() = default;
+  ~Ground();
+  Ground(const Ground &) = delete;
+  Ground &operator=(const Ground &) = delete;
+
+  void build(const hoap2_plant_params_t &params);
+  void find_contacts(const State &state, ContactList *contacts) const;
+
+ private:
+  void clear();
+  void touch_floor(const State &state, int link, ContactList *contacts) const;
+  void touch_block(const State &state, int link, int block, ContactList *contacts) const;
+
+  int block_count_ = 0;
+  dGeomID block_[16] = {};
+  dGeomID link_box_[HOAP2_LINKS] = {};
+};
+
+}  // namespace hoap2_sim
+#endif
