@@ -17,7 +17,8 @@ extern "C" {
 void hoap2_gait_reset(const hoap2_params_t *params, hoap2_gait_t *gait);
 
 /* Simulates the first steps of the walk in open loop. Returns 0, or HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH when a
- * leg would not reach, a joint limit would be met, or the feet would overlap. */
+ * leg would not reach, a joint limit would be met, or the feet would overlap, or HOAP2_FAULT_JOINT_TOO_FAST
+ * when a joint would have to exceed its velocity limit by more than the reference limiter can smooth away. */
 int32_t hoap2_gait_check_reach(const hoap2_params_t *params, const hoap2_gait_t *gait);
 
 /* Begin the walk of params from standing. */

@@ -18,6 +18,7 @@ constexpr double kGravity_m_s2 = 9.81;
 constexpr int kReachSteps = 8;            // a step's geometry repeats after two steps
 constexpr double kReachExcess_m = 2e-4;   // draw-back of a leg that counts as out of reach
 constexpr double kSoleClearance_m = 2e-3; // least gap between the soles in a landing
+constexpr double kRateTolerance = 1.2;    // joint rate of the plan against the limit
 
 double step_time_s(const hoap2_gait_t& gait) { return gait.step_tick * kTick_s; }
 
@@ -121,6 +122,22 @@ void map_to_joints(const hoap2_params_t& params, int passes, hoap2_gait_t& gait)
   gait.joint_limit = result.joint_limit;
 }
 
+// What a tick of a trial walk shows to be impossible.
+int32_t trial_fault(const hoap2_gait_t& trial, const double q_last_rad[HOAP2_SIZE_JOINT]) {
+  if (trial.pulled_back || trial.joint_limit) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
+  if (trial.swing_foot != 2) {
+    const int stance = 1 - trial.swing_foot;
+    if (sole_clearance(trial.foot[stance], stance, trial.land) < kSoleClearance_m)
+      return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
+  }
+  for (int i = 0; i < HOAP2_SIZE_JOINT; ++i) {
+    const double rate_rad_s = (trial.q_ref_rad[i] - q_last_rad[i]) / kTick_s;
+    const double limit_rad_s = kRateTolerance * HOAP2_JOINT[i].velocity_limit_rad_s;
+    if (rate_rad_s > limit_rad_s || rate_rad_s < -limit_rad_s) return HOAP2_FAULT_JOINT_TOO_FAST;
+  }
+  return 0;
+}
+
 }  // namespace
 }  // namespace hoap2
 
@@ -147,20 +164,18 @@ void hoap2_gait_reset(const hoap2_params_t* params, hoap2_gait_t* gait) {
 int32_t hoap2_gait_check_reach(const hoap2_params_t* params, const hoap2_gait_t* gait) {
   if (gait->pulled_back || gait->joint_limit) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
   if (params->behaviour != HOAP2_BEHAVIOUR_WALK_CP) return 0;
-  hoap2_params_t trial_params = *params;
-  trial_params.cp_controller = HOAP2_CP_CONTROLLER_PLAN;
   hoap2_gait_t trial = *gait;
   hoap2_sense_t blind;
   memset(&blind, 0, sizeof blind);
   trial.feedback = 0;
-  hoap2_gait_start(&trial_params, &trial);
+  hoap2_gait_start(params, &trial);
   const int32_t ticks = hoap2::step_ticks(params->start_shift_s) + hoap2::kReachSteps * hoap2::step_ticks(params->step_time_s);
   for (int32_t tick = 0; tick < ticks && trial.walking; ++tick) {
-    hoap2_gait_step(&trial_params, &blind, &trial);
-    if (trial.pulled_back || trial.joint_limit) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
-    if (trial.swing_foot != 2 &&
-        hoap2::sole_clearance(trial.foot[1 - trial.swing_foot], 1 - trial.swing_foot, trial.land) < hoap2::kSoleClearance_m)
-      return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
+    double q_last_rad[HOAP2_SIZE_JOINT];
+    memcpy(q_last_rad, trial.q_ref_rad, sizeof q_last_rad);
+    hoap2_gait_step(params, &blind, &trial);
+    const int32_t fault = hoap2::trial_fault(trial, q_last_rad);
+    if (fault) return fault;
   }
   return 0;
 }
