@@ -55,6 +55,8 @@ class Signals:
         object.__setattr__(self, "_views", views)
         object.__setattr__(self, "_block", block)
         object.__setattr__(self, "_guard", block[size:])
+        object.__setattr__(self, "_flat", (block[: 8 * reals].view(np.float64),
+                                           block[8 * reals : 8 * reals + 4 * ints].view(np.int32)))
         object.__setattr__(self, "pointer", ctypes.c_void_p(block.ctypes.data))
 
     def view(self, name: str) -> np.ndarray:
@@ -62,6 +64,10 @@ class Signals:
         if name not in self._views:
             raise AttributeError(f"no signal {name!r} here; {nearest(name, self._views) or 'see dir()'}")
         return self._views[name]
+
+    def flat(self) -> tuple[np.ndarray, np.ndarray]:
+        """All reals and all ints as two flat views, in the order of the table."""
+        return self._flat
 
     def __getattr__(self, name: str):
         if name.startswith("_"):
@@ -73,7 +79,7 @@ class Signals:
         self.view(name)[...] = value
 
     def __dir__(self):
-        return [*self._views, "describe", "to_dict", "view"]
+        return [*self._views, "describe", "flat", "to_dict", "view"]
 
     def __iter__(self):
         return iter(self._views)
