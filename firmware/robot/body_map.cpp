@@ -8,7 +8,8 @@ BodyMapResult body_map(const BodyTarget& target, int passes, double com_over_bas
   const double c = hoap2_cos(target.heading_rad);
   const double s = hoap2_sin(target.heading_rad);
   Mat3 sole_rot_B[2];
-  for (int foot = 0; foot < 2; ++foot) sole_rot_B[foot] = rot_z(target.foot_yaw_rad[foot] - target.heading_rad);
+  for (int foot = 0; foot < 2; ++foot)
+    sole_rot_B[foot] = rot_z(target.foot_yaw_rad[foot] - target.heading_rad);
 
   Kinematics kin;
   for (int pass = 0; pass < passes; ++pass) {
@@ -30,8 +31,10 @@ BodyMapResult body_map(const BodyTarget& target, int passes, double com_over_bas
       result.joint_limit = result.joint_limit || leg.status == LegIk::joint_limit;
     }
     forward_kinematics(q_rad, kin);
-    const double error_x = c * (kin.com_B[0] - com_over_base_B_m[0]) - s * (kin.com_B[1] - com_over_base_B_m[1]);
-    const double error_y = s * (kin.com_B[0] - com_over_base_B_m[0]) + c * (kin.com_B[1] - com_over_base_B_m[1]);
+    const double error_x =
+        c * (kin.com_B[0] - com_over_base_B_m[0]) - s * (kin.com_B[1] - com_over_base_B_m[1]);
+    const double error_y =
+        s * (kin.com_B[0] - com_over_base_B_m[0]) + c * (kin.com_B[1] - com_over_base_B_m[1]);
     result.com_error_m = hoap2_sqrt(error_x * error_x + error_y * error_y);
     for (int i = 0; i < 3; ++i) com_over_base_B_m[i] = kin.com_B[i];
   }

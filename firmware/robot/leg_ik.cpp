@@ -62,7 +62,8 @@ void hip_angles(const Mat3& R, double angles_rad[3]) {
 // slope the ankle pitch; what is left of the foot's orientation is the hip's.
 void leg_ik(int foot, const Pose& sole_B, LegIkResult& result, double reach_margin_m) {
   Vec3 hip_F = hip_from_ankle_F(foot, sole_B);
-  const double distance_m = clamp(hoap2_hypot(hoap2_hypot(hip_F.x(), hip_F.y()), hip_F.z()), 0.0, 4.0 * kFar_m);
+  const double distance_m =
+      clamp(hoap2_hypot(hoap2_hypot(hip_F.x(), hip_F.y()), hip_F.z()), 0.0, 4.0 * kFar_m);
   const double reach_m = thigh_m() + shank_m() - reach_margin_m;
   result.status = LegIk::ok;
   result.excess_m = 0.0;
