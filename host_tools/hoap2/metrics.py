@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from hoap2 import parameters
+from hoap2 import parameters, walk_plan
 from hoap2.scenario import Scenario
 from hoap2.signal_log import SignalLog
 
@@ -97,18 +97,19 @@ def _middle(feet_pos_W_m: np.ndarray, feet_yaw_W_rad: np.ndarray, scenario: Scen
 
 
 def _position(log: SignalLog, scenario: Scenario) -> dict:
-    """Where the feet ended, and how far from the plan's end (only when the walk was finished)."""
-    pos, yaw = log.block("p.true_foot_pos_W_m"), log.block("p.true_foot_yaw_W_rad")
-    end = _middle(pos[-1], yaw[-1], scenario)
-    out = {"progress_x_m": end[0], "progress_y_m": end[1], "turn_deg": math.degrees(end[2]),
-           "final_error_m": None, "final_error_yaw_deg": None}  # fmt: skip
-    ref, ref_yaw = log.block("c.foot_ref_W_m"), log.block("c.foot_ref_yaw_W_rad")
-    finished = scenario.steps_planned == 0 or ("c.walk_done" in log and log.column("c.walk_done")[-1] == 1)
-    if ref is not None and ref_yaw is not None and finished:
-        plan = _middle(ref[-1], ref_yaw[-1], scenario)
-        out["final_error_m"] = math.hypot(*(end - plan)[:2])
-        out["final_error_yaw_deg"] = math.degrees(_wrap(end[2] - plan[2]))
-    return out
+    """Where the feet ended, and how far from the end of the plan that the parameters ask for."""
+    got = _middle(log.block("p.true_foot_pos_W_m")[-1], log.block("p.true_foot_yaw_W_rad")[-1], scenario)
+    plan = walk_plan.end(scenario.values["controller"], scenario.steps_planned)
+    return {
+        "progress_x_m": got[0],
+        "progress_y_m": got[1],
+        "turn_deg": math.degrees(got[2]),
+        "plan_x_m": plan[0],
+        "plan_y_m": plan[1],
+        "plan_turn_deg": math.degrees(plan[2]),
+        "final_error_m": math.hypot(got[0] - plan[0], got[1] - plan[1]),
+        "final_error_yaw_deg": math.degrees(_wrap(got[2] - plan[2])),
+    }
 
 
 def _standing(log: SignalLog, fell: bool, limit_m_s: float) -> dict:

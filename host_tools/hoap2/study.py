@@ -1,0 +1,219 @@
+"""One run or a study over seeds, from a request to folders and tables."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import csv
+import io
+import json
+import multiprocessing
+import os
+import signal
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from hoap2 import metric_names, products, runfolder, runner, scenario, seeds, statistics
+from hoap2.errors import UserError
+from hoap2.master import StopRequest
+from hoap2.progress import PartProgress
+from hoap2.tables_shown import MISSED, OK, number
+
+POLL_S = 0.2
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the command line asked for; small and picklable, so that a worker can start from it."""
+
+    scenario: str
+    overrides: tuple[str, ...] = ()
+    sensors: str | None = None
+    duration_s: float | None = None
+    choice: products.Choice = products.Choice()
+    video: bool = True
+
+    def load(self) -> scenario.Scenario:
+        return scenario.load(self.scenario, list(self.overrides), self.sensors, self.duration_s)
+
+
+@dataclass(frozen=True)
+class Result:
+    """A study's study.json and the exit code that goes with it."""
+
+    document: dict
+    exit_code: int
+
+
+def run_one(request: Request, loaded: scenario.Scenario, out: str | None, console: Console,
+            path: Path | None = None, quiet: bool = False) -> dict:  # fmt: skip
+    """One run into its folder (`path`, or from `out`); returns the summary. No folder is left by bad input."""
+    folder = runfolder.RunFolder(path or runfolder.target(loaded.name, out))
+    try:
+        both = products.open_both(request.choice, loaded)
+        return runner.execute(loaded, both, folder, console, request.video, quiet)
+    finally:
+        folder.discard()  # nothing is left there after `finish`
+
+
+def _start_worker() -> None:
+    """Between runs a worker leaves Ctrl-C to its parent; during a run master.StopRequest listens."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _seed_run(request: Request, seed: int, path: Path) -> dict:
+    loaded = request.load()
+    seeds.apply(loaded, seed)
+    return run_one(request, loaded, None, Console(stderr=True), path, quiet=True)
+
+
+def run_study(request: Request, seed_list: list[int], out: str | None, jobs: int, console: Console,
+              show: bool = True) -> Result:  # fmt: skip
+    """Run all seeds, at most `jobs` at a time; write study.json and study.csv; print the table."""
+    loaded = request.load()
+    folder = runfolder.target(loaded.name, out)
+    _make_folder(folder)
+    summaries, errors = {}, {}
+    progress = PartProgress(f"{loaded.name} seeds", console)
+    with StopRequest() as stop:
+        try:
+            _run_all(request, seed_list, folder, jobs, stop, progress, summaries, errors)
+        finally:
+            progress.close()
+    interrupted = stop.signal is not None
+    document = _document(loaded, seed_list, summaries, errors, interrupted) | {"folder": str(folder)}
+    _write(folder, document)
+    if show:
+        _show(document, Console(highlight=False))
+    code = runner.EXIT_INTERRUPTED if interrupted else runner.EXIT_OK if document["ok"] else runner.EXIT_FAILED
+    return Result(document, code)
+
+
+def _make_folder(folder: Path) -> None:
+    probe = runfolder.RunFolder(folder)  # the same checks and messages as for a run
+    probe.discard()
+    folder.mkdir()
+
+
+def _run_all(request: Request, seed_list: list[int], folder: Path, jobs: int, stop: StopRequest,
+             progress: PartProgress, summaries: dict, errors: dict) -> None:  # fmt: skip
+    width = max(3, len(str(max(seed_list))))
+    context = multiprocessing.get_context("spawn")
+    workers = min(jobs, len(seed_list))
+    with concurrent.futures.ProcessPoolExecutor(workers, mp_context=context, initializer=_start_worker) as pool:
+        waiting = {
+            pool.submit(_seed_run, request, seed, folder / f"seed-{seed:0{width}d}"): seed for seed in seed_list
+        }
+        told = False
+        while waiting:
+            done, _ = concurrent.futures.wait(waiting, POLL_S, concurrent.futures.FIRST_COMPLETED)
+            for future in done:
+                seed = waiting.pop(future)
+                if not future.cancelled():
+                    _collect(future, seed, summaries, errors)
+            missed = sum(not s["ok"] for s in summaries.values()) + len(errors)
+            text = f"{len(summaries) + len(errors)} of {len(seed_list)} runs, {missed} not ok"
+            progress(len(summaries) + len(errors), len(seed_list), text)
+            if stop.signal is not None and not told:
+                told = True
+                for future in waiting:
+                    future.cancel()
+                for child in multiprocessing.active_children():  # a terminal's Ctrl-C reached them, a kill did not
+                    os.kill(child.pid, signal.SIGINT)
+
+
+def _collect(future: concurrent.futures.Future, seed: int, summaries: dict, errors: dict) -> None:
+    try:
+        summaries[seed] = future.result()
+    except UserError as error:
+        errors[seed] = str(error)
+    except Exception as error:  # a worker that died takes its run along, not the study
+        errors[seed] = f"{type(error).__name__}: {error}"
+
+
+def _document(loaded: scenario.Scenario, seed_list: list[int], summaries: dict, errors: dict,
+              interrupted: bool) -> dict:  # fmt: skip
+    """The content of study.json."""
+    rows = [summaries[seed] for seed in seed_list if seed in summaries]
+    complete = [row for row in rows if not row["interrupted"]]
+    bounds = {}
+    for name, bound in loaded.bounds.items():
+        entries = [row["bounds"][name] for row in complete]
+        values = [e["value"] for e in entries if e["value"] is not None]
+        bounds[name] = {
+            "least": min(values, default=None), "largest": max(values, default=None),
+            "min": bound.low, "max": bound.high, "met": _fraction([e["ok"] for e in entries]),
+        }  # fmt: skip
+    return {
+        "scenario": loaded.name,
+        "seeds": seed_list,
+        "ok": not interrupted and not errors and len(complete) == len(seed_list) and all(r["ok"] for r in rows),
+        "interrupted": interrupted,
+        "runs_ok": _fraction([row["ok"] for row in complete] + [False] * len(errors)),
+        "runs_fallen": _fraction([bool(row.get("fell")) for row in complete]),
+        "bounds": bounds,
+        "errors": {str(seed): text for seed, text in errors.items()},
+        "runs": rows,
+    }
+
+
+def _fraction(flags: list[bool]) -> dict:
+    low, high = statistics.wilson_95(sum(flags), len(flags))
+    return {"count": sum(flags), "of": len(flags), "wilson_95": [low, high]}
+
+
+def _flat(summary: dict, prefix: str = "") -> dict:
+    out = {}
+    for key, value in summary.items():
+        if isinstance(value, dict):
+            out |= _flat(value, f"{prefix}{key}.")
+        elif not isinstance(value, list):
+            out[prefix + key] = value
+    return out
+
+
+def _write(folder: Path, document: dict) -> None:
+    text = io.StringIO()
+    rows = [_flat({k: v for k, v in row.items() if k not in ("bounds", "title", "section")}) for row in document["runs"]]
+    if rows:
+        names = list(dict.fromkeys(name for row in rows for name in row))
+        writer = csv.DictWriter(text, names, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    content = json.dumps(runfolder.jsonable(document), indent=2, ensure_ascii=False) + "\n"
+    for name, data in (("study.csv", text.getvalue()), ("study.json", content)):
+        part = folder / f".{name}.part"
+        part.write_text(data, encoding="utf-8")
+        part.rename(folder / name)
+
+
+def _show(document: dict, console: Console) -> None:
+    names = list(document["bounds"])
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
+    table.add_column("seed", justify="right")
+    for name in names:
+        unit = metric_names.NAMES[name][0]
+        table.add_column(f"{name.replace('.', ' ').replace('_', ' ')}\n{unit}", justify="right", overflow="fold")
+    table.add_column("")
+    for row in document["runs"]:
+        cells = [_cell(row["bounds"][name]) for name in names]
+        table.add_row(str(row["seed"]), *cells, "interrupted" if row["interrupted"] else OK if row["ok"] else MISSED)
+    for seed, text in document["errors"].items():
+        table.add_row(seed, *[""] * len(names), f"[red]{text.splitlines()[0][:60]}[/]")
+    table.add_section()
+    for label, key in (("least", "least"), ("largest", "largest"), ("min", "min"), ("max", "max")):
+        cells = [number(document["bounds"][name][key], 3) for name in names]
+        table.add_row(label, *cells, "", style="dim" if key in ("min", "max") else "bold")
+    console.print(table)
+    for label, key in (("ok", "runs_ok"), ("fallen", "runs_fallen")):
+        share = document[key]
+        low, high = share["wilson_95"]
+        console.print(f"{label}: {share['count']} of {share['of']} runs (95 %: {100 * low:.0f}-{100 * high:.0f} %)")
+    console.print(f"study folder: {document['folder']}", soft_wrap=True)
+
+
+def _cell(entry: dict) -> str:
+    text = number(entry["value"], 3)
+    return text if entry["ok"] else f"[bold red]{text}[/]"

@@ -1,0 +1,58 @@
+"""What a run or a study prints when it is done."""
+
+from __future__ import annotations
+
+from rich.console import Console
+from rich.table import Table
+
+from hoap2 import metric_names
+
+OK, MISSED = "[green]ok[/]", "[bold red]missed[/]"
+
+
+def number(value, digits: int = 4) -> str:
+    """A number for reading: short, a dash when there is none."""
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.{digits}g}"
+    return str(value)
+
+
+def bounds_table(summary: dict) -> Table:
+    """The bounds of one run."""
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for name, style in (("bound", ""), ("value", "right"), ("min", "right"), ("max", "right"), ("", "")):
+        table.add_column(name, justify="right" if style else "left")
+    for name, entry in summary["bounds"].items():
+        unit = metric_names.NAMES.get(name, ("", ""))[0]
+        table.add_row(f"{name} [dim]{unit}[/]", number(entry["value"]), number(entry["min"]), number(entry["max"]),
+                      OK if entry["ok"] else MISSED)  # fmt: skip
+    return table
+
+
+def show_summary(summary: dict, console: Console) -> None:
+    """Verdict, bounds and folder of one run."""
+    verdict = "[bold green]ok[/]" if summary["ok"] else "[bold red]not ok[/]"
+    notes = []
+    if summary["interrupted"]:
+        notes.append("interrupted")
+    if summary["error"]:
+        notes.append(summary["error"])
+    if summary.get("fell"):
+        notes.append(f"fell {summary['fall_direction']} at {summary['fall_time_s']:.2f} s, step {summary['fall_step']}")
+    if summary.get("faults"):
+        notes.append("faults: " + ", ".join(summary["faults"]))
+    console.print(f"{summary['scenario']}: {verdict}" + "".join(f"; {note}" for note in notes))
+    console.print(bounds_table(summary))
+    factor = summary["real_time_factor"]
+    if factor:
+        console.print(
+            f"{summary['duration_s']:.2f} s simulated at {factor:.2f} x real time; "
+            f"controller {number(summary['controller_us']['median'])} us, plant {number(summary['plant_us']['median'])} us a tick"
+        )
+    for note in summary.get("notes", []):
+        console.print(f"[yellow]note:[/] {note}")
+    console.print(f"run folder: {summary['folder']}", soft_wrap=True)
