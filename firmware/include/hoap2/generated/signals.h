@@ -153,7 +153,7 @@ static inline void hoap2_params_defaults(hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_kx_1_s2)[i_] = 100.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_error_limit_m)[i_] = 0.03;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_shift_limit_m)[i_] = 0.03;
-  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_filter_s)[i_] = 0.01;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_filter_s)[i_] = 0.05;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->attitude_tau_s)[i_] = 3.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->com_rate_filter_s)[i_] = 0.02;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->contact_on_N)[i_] = 5.0;
