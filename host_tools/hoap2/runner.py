@@ -123,19 +123,40 @@ def execute(scenario: Scenario, products: Products, folder: RunFolder, console: 
         finished = time.strftime("%Y-%m-%dT%H:%M:%S%z")
         folder.json("timing.json", outcome.timing.summary() | {"finished": finished})
         # From here on a stop request only leaves out what is still to come.
-        if video and outcome.log.count > 1 and stop.signal is None:
-            _video(folder, console, quiet, stop, summary)
+        summary["notes"] = []
+        wanted = video and outcome.log.count > 1 and stop.signal is None
+        picture = _video(folder, console, quiet, stop, summary) if wanted else None
         summary["peak_memory_mb"] = peak_memory_mb()
-        _report(folder, scenario, outcome.log, summary, quiet, console)
+        if outcome.log.count > 1:
+            _report(folder, scenario, outcome.log, summary, picture)
         folder.json("summary.json", summary)
         path = folder.finish()
     return summary | {"folder": str(path)}
 
 
-def _video(folder: RunFolder, console: Console, quiet: bool, stop: master.StopRequest, summary: dict) -> None:
-    """The video, or a note in the summary why there is none; a run is not lost for want of a picture."""
+def _video(folder: RunFolder, console: Console, quiet: bool, stop: master.StopRequest, summary: dict) -> Path | None:
+    """The video, or a note in the summary why there is none: a run is not lost for want of a picture."""
+    from hoap2 import pictures
+
+    progress = None if quiet else PartProgress("video", console)
+    path = folder.work / "video.mp4"
+    try:
+        pictures.write_video(folder.work, path, progress=progress)
+        return path
+    except (Exception, KeyboardInterrupt) as error:
+        path.unlink(missing_ok=True)
+        summary["notes"].append(f"no video: {error or type(error).__name__}")
+        return None
+    finally:
+        if progress is not None:
+            progress.close()
 
 
-def _report(folder: RunFolder, scenario: Scenario, log: SignalLog, summary: dict, quiet: bool,
-            console: Console) -> None:  # fmt: skip
+def _report(folder: RunFolder, scenario: Scenario, log: SignalLog, summary: dict, video: Path | None) -> None:
     """The report, or a note in the summary why there is none."""
+    from hoap2 import report
+
+    try:
+        report.write(folder.work / "report.html", scenario, log, summary, video)
+    except (Exception, KeyboardInterrupt) as error:
+        summary["notes"].append(f"no report: {type(error).__name__}: {error}")
