@@ -1,0 +1,263 @@
+"""Pictures of runs: a frame of any moment, a strip of moments, the video.
+
+    write_frame("out/floor-walk/first", 3.2, Path("frame.png"), view="side")
+    write_video("out/floor-walk/first", Path("video.mp4"))
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from hoap2 import picture_labels as labels
+from hoap2 import recording, renderer
+from hoap2.errors import UserError
+from hoap2.recording import Recording
+from hoap2.renderer import Renderer, Scene
+
+__all__ = ["VIEWS", "Renderer", "Scene", "parse_size", "scene_from_run", "strip", "write_frame", "write_video"]
+
+DISTANCE_M = 1.45
+FOLLOW_S = 0.6  # width of the smoothing of the camera's way
+TARGET_OVER_HIPS_M = 0.015
+SUPERSAMPLING_UP_TO_PX = 2048
+
+
+@dataclass(frozen=True)
+class View:
+    """Where the camera stands relative to the heading at the start."""
+
+    azimuth_rad: float
+    elevation_rad: float
+    distance_m: float = DISTANCE_M
+
+
+VIEWS = {
+    "quarter": View(math.radians(-48), math.radians(13)),
+    "side": View(math.radians(-90), math.radians(6)),  # from the right: the robot walks from left to right
+    "front": View(0.0, math.radians(6)),
+    "back": View(math.radians(155), math.radians(13)),
+    "top": View(math.radians(-90), math.radians(80), 1.6),
+}
+
+
+def _view(name: str) -> View:
+    if name not in VIEWS:
+        raise UserError(f"unknown view '{name}'", "known: " + ", ".join(VIEWS))
+    return VIEWS[name]
+
+
+def parse_size(text: str) -> tuple[int, int]:
+    """`960x540` as (width, height)."""
+    try:
+        width, height = (int(part) for part in text.lower().split("x"))
+    except ValueError:
+        raise UserError(f"'{text}' is no picture size", "write it as 960x540") from None
+    return width, height
+
+
+def _load(run: Recording | str | Path) -> Recording:
+    return run if isinstance(run, Recording) else recording.load(run)
+
+
+def camera_targets(run: Recording) -> np.ndarray:
+    """The point the camera looks at, (ticks, 3): the way of the hips, smoothed without delay."""
+    way = run.signal["true_base_pos_W_m"] + (0.0, 0.0, TARGET_OVER_HIPS_M)
+    half = max(1, round(FOLLOW_S / max(1e-4, np.median(np.diff(run.t_s)) if len(run.t_s) > 1 else 1e-3)))
+    window = np.hanning(2 * half + 1)
+    window /= window.sum()
+    # Beyond both ends the robot is taken to go on as it does there.
+    padded = np.concatenate([2 * way[:1] - way[half:0:-1] if len(way) > half else np.repeat(way[:1], half, axis=0), way,
+                             np.repeat(way[-1:], half, axis=0)])  # fmt: skip
+    return np.column_stack([np.convolve(padded[:, i], window, mode="valid") for i in range(3)])
+
+
+def _set_terrain(scene: Scene, run: Recording) -> None:
+    scene.floor_tilt_rad = run.plant.get("floor_tilt_rad", [0.0, 0.0])
+    start = run.plant.get("start_pos_W_m", [0.0, 0.0])
+    scene.floor_origin_W_m = [start[0], start[1], 0.0]
+    count = min(int(run.plant.get("block_count", 0)), renderer.MAX_BLOCKS)
+    if count:
+        scene.block_centre_W_m[:count] = np.reshape(run.plant["block_centre_W_m"], (-1, 3))[:count]
+        scene.block_size_m[:count] = np.reshape(run.plant["block_size_m"], (-1, 3))[:count]
+        scene.block_yaw_W_rad[:count] = np.ravel(run.plant["block_yaw_W_rad"])[:count]
+    scene.block_count = count
+
+
+def scene_from_run(table_row: int, run: Recording, view: str = "quarter", target_W_m=None,
+                   overlays: bool = True) -> Scene:  # fmt: skip
+    """The scene at one row of a recording (`Recording.row(t_s)` finds it)."""
+    seen = _view(view)
+    scene = Scene()
+    scene.base_pos_W_m = run.values("true_base_pos_W_m", table_row)
+    scene.base_quat_W = run.values("true_base_quat_W", table_row)
+    scene.q_rad = run.values("true_q_rad", table_row)
+    scene.com_W_m = run.values("true_com_W_m", table_row)
+    scene.cop_W_m = run.values("true_cop_W_m", table_row)
+    if run.values("cp_est_W_m", table_row) is not None:
+        scene.cp_W_m = run.values("cp_est_W_m", table_row)
+    for x, y, yaw, left in run.footprints(table_row):
+        scene.add_footprint(x, y, yaw, left)
+    _set_terrain(scene, run)
+    pushes = run.active_pushes(float(run.t_s[table_row]))
+    if pushes:
+        link, point_L_m = pushes[0]
+        pose = scene.link_pose(link)
+        scene.push_force_W_N = run.values("true_push_force_W_N", table_row)
+        scene.push_point_W_m = pose[:, :3] @ point_L_m + pose[:, 3]
+    scene.camera_target_W_m = camera_targets(run)[table_row] if target_W_m is None else target_W_m
+    scene.camera_azimuth_rad = seen.azimuth_rad + float(run.plant.get("start_yaw_W_rad", 0.0))
+    scene.camera_elevation_rad, scene.camera_distance_m = seen.elevation_rad, seen.distance_m
+    if not overlays:
+        scene.show = renderer.SHOW_PUSH | renderer.SHOW_SHADOW
+    return scene
+
+
+def _has_push(run: Recording) -> bool:
+    return bool(np.any(np.asarray(run.plant.get("push_duration_s", [0.0])) > 0.0))
+
+
+def _caption(run: Recording, row: int) -> str:
+    text = f"{run.name}   t = {run.t_s[row]:.2f} s"
+    step = run.values("step_index", row)
+    return f"{text}   step {int(step[0])}" if step is not None and step[0] > 0 else text
+
+
+def _still(scene: Scene, width: int, height: int) -> np.ndarray:
+    """A picture with smooth edges: four samples a pixel, at twice the size where that is possible."""
+    factor = 2 if max(width, height) <= SUPERSAMPLING_UP_TO_PX else 1
+    with Renderer(width * factor, height * factor, samples=4) as camera:
+        picture = camera.draw(scene)
+    if factor == 1:
+        return picture
+    return np.array(Image.fromarray(picture).resize((width, height), Image.Resampling.BOX))
+
+
+def _check_target(path: Path, suffixes: tuple[str, ...], overwrite: bool) -> Path:
+    path = Path(path)
+    if path.suffix.lower() not in suffixes:
+        raise UserError(f"{path}: the name must end in {' or '.join(suffixes)}")
+    if path.exists() and not overwrite:
+        raise UserError(f"{path} is there already; nothing was overwritten", "give another name")
+    if not path.parent.is_dir():
+        raise UserError(f"there is no folder {path.parent}")
+    return path
+
+
+def _save(picture: np.ndarray, path: Path) -> Path:
+    """Write beside the place, then rename: a picture is there whole or not at all."""
+    part = path.with_name(f".{path.stem}.part-{os.getpid()}{path.suffix}")
+    try:
+        Image.fromarray(picture).save(part)
+        part.replace(path)
+    except OSError as error:
+        raise UserError(f"cannot write {path}: {error.strerror or error}") from None
+    finally:
+        part.unlink(missing_ok=True)
+    return path
+
+
+def write_frame(run: Recording | str | Path, t_s: float, path: str | Path, size: tuple[int, int] = (1280, 720),
+                view: str = "quarter", overlays: bool = True, overwrite: bool = False) -> Path:  # fmt: skip
+    """One moment of a run as a picture file."""
+    path = _check_target(Path(path), (".png", ".jpg", ".webp"), overwrite)
+    run = _load(run)
+    row = run.row(t_s)
+    picture = _still(scene_from_run(row, run, view, overlays=overlays), *size)
+    if overlays:
+        labels.caption(picture, _caption(run, row))
+        labels.legend(picture, _has_push(run))
+    return _save(picture, path)
+
+
+def strip(run: Recording | str | Path, times: list[float], path: str | Path, size: tuple[int, int] = (320, 480),
+          view: str = "quarter", overlays: bool = True, overwrite: bool = False) -> Path:  # fmt: skip
+    """Snapshots side by side, each `size` large."""
+    path = _check_target(Path(path), (".png", ".jpg", ".webp"), overwrite)
+    if not times:
+        raise UserError("a strip needs at least one time")
+    run = _load(run)
+    targets, pictures = camera_targets(run), []
+    for row in [run.row(t) for t in times]:
+        picture = _still(scene_from_run(row, run, view, targets[row], overlays), *size)
+        labels.caption(picture, f"{run.t_s[row]:.2f} s")
+        pictures.append(picture)
+    gap = np.full((size[1], 2, 3), 255, dtype=np.uint8)
+    parts = [part for picture in pictures for part in (picture, gap)][:-1]
+    return _save(np.concatenate(parts, axis=1), path)
+
+
+def _encoder(path: Path, size: tuple[int, int], fps: float, errors) -> subprocess.Popen:
+    program = shutil.which("ffmpeg")
+    if program is None:
+        raise UserError("no video: ffmpeg is not installed", "apt-get install ffmpeg, or run with --no-video",
+                        exit_code=3)  # fmt: skip
+    command = [
+        program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y",
+        "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}", "-r", f"{fps:g}", "-i", "-",
+        "-an", "-c:v", "libx264", "-preset", "veryfast", "-crf", "23", "-pix_fmt", "yuv420p",
+        "-movflags", "+faststart", str(path),
+    ]  # fmt: skip
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=errors)
+
+
+def _feed(run: Recording, rows: list[int], size: tuple[int, int], view: str, samples: int, out,
+          progress: Callable[[int, int], object] | None) -> bool:  # fmt: skip
+    """Draw the rows into the encoder; False when progress asked to stop (it returned False)."""
+    targets, with_push = camera_targets(run), _has_push(run)
+    with Renderer(*size, samples=samples) as camera:
+        picture = np.empty((size[1], size[0], 3), dtype=np.uint8)
+        for done, row in enumerate(rows):
+            camera.draw(scene_from_run(row, run, view, targets[row]), picture)
+            labels.caption(picture, _caption(run, row))
+            labels.legend(picture, with_push)
+            out.write(picture.data)
+            if progress is not None and progress(done + 1, len(rows)) is False:
+                return False
+    return True
+
+
+def write_video(run: Recording | str | Path, path: str | Path, fps: float = 25.0, size: tuple[int, int] = (960, 540),
+                slow: float = 1.0, progress: Callable[[int, int], object] | None = None, view: str = "quarter",
+                samples: int = 1, overwrite: bool = False) -> Path | None:  # fmt: skip
+    """The whole run as MP4 (H.264). slow = 2 plays at half speed. progress(done, total) may return False to stop;
+    then nothing is left behind and the answer is None."""
+    path = _check_target(Path(path), (".mp4",), overwrite)
+    if size[0] % 2 or size[1] % 2:
+        raise UserError(f"video size {size[0]}x{size[1]}: both sides must be even")
+    if not (0.0 < fps <= 240.0 and 0.05 <= slow <= 100.0):
+        raise UserError("video: fps must be in (0, 240] and slow in [0.05, 100]")
+    run = _load(run)
+    count = max(1, math.floor((run.end_s - run.t_s[0]) * slow * fps) + 1)
+    rows = [int(r) for r in np.searchsorted(run.t_s, run.t_s[0] + np.arange(count) / (slow * fps) - 1e-9)]
+    rows = [min(r, len(run.t_s) - 1) for r in rows]
+    part = path.with_name(f".{path.stem}.part-{os.getpid()}.mp4")
+    with tempfile.TemporaryFile() as errors:
+        encoder = _encoder(part, size, fps, errors)
+        try:
+            complete = _feed(run, rows, size, view, samples, encoder.stdin, progress)
+            encoder.stdin.close()
+            if encoder.wait() != 0:
+                raise BrokenPipeError
+            if not complete:
+                return None
+            part.replace(path)
+        except BrokenPipeError:
+            errors.seek(0)
+            text = errors.read().decode(errors="replace").strip().splitlines()
+            raise UserError(f"no video: ffmpeg failed: {text[-1] if text else 'no message'}", exit_code=3) from None
+        finally:
+            if encoder.poll() is None:
+                encoder.kill()
+                encoder.wait()
+            part.unlink(missing_ok=True)
+    return path
