@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import sys
 
-from . import c_headers, pages, urdf
-from .tables import ROOT, load
+from . import c_headers, fmi, fmi_pages, pages, ssp, urdf
+from .tables import PRODUCTS, ROOT, Table, load
 
 
 def outputs() -> dict[str, str]:
@@ -20,7 +20,18 @@ def outputs() -> dict[str, str]:
         "sim/include/hoap2_plant/generated/plant_signals.h": c_headers.signals_header(table, "plant", "hoap2_plant"),
         "sim/model/hoap2.urdf": urdf.urdf(table),
         "docs/generated/signals.md": pages.signals_page(table),
+        **_fmu_outputs(table),
     }
+
+
+def _fmu_outputs(table: Table) -> dict[str, str]:
+    out = {"fmu/generated/SystemStructure.ssd": ssp.system_structure(table)}
+    for product in PRODUCTS:
+        out[f"fmu/generated/{product}_fields.h"] = fmi.fields_header(table, product)
+        out[f"fmu/generated/{product}_fmi2.xml"] = fmi.fmi2_xml(table, product, source_files=product == "controller")
+        out[f"fmu/generated/{product}_fmi3.xml"] = fmi.fmi3_xml(table, product)
+        out[f"fmu/generated/{product}.html"] = fmi_pages.page(table, product)
+    return out
 
 
 def main() -> int:

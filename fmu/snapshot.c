@@ -1,0 +1,194 @@
+/* Snapshots of a whole instance: FMU states, and their form as bytes.
+ *
+ * bytes: header | instance fields | inputs | outputs | parameters | model state
+ * The bytes hold no pointers; both FMI versions of a product share them.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "instance.h"
+
+enum { SNAPSHOT_VERSION = 1, BYTE_ORDER_MARK = 0x01020304 };
+static const char MAGIC[8] = {'H', 'O', 'A', 'P', '2', 'F', 'M', 'U'};
+
+typedef struct {
+  char magic[8];
+  int32_t version;
+  int32_t byte_order;
+  char product[32];
+  char token[40]; /* hash of the tables: another table is another layout */
+  int32_t schema;
+  int32_t reserved;
+  uint64_t body_size;
+  uint64_t checksum; /* of the body */
+} header_t;
+
+typedef struct {
+  int32_t mode;
+  int32_t model_ready;
+  int64_t tick;
+  double start_time_s;
+  double stop_time_s;
+} fields_t;
+
+typedef struct {
+  header_t header;
+  fields_t fields;
+  /* the rest follows */
+} snapshot_t;
+
+/* FNV-1a: finds damage, is no protection against forgery. */
+static uint64_t checksum_of(const unsigned char *bytes, size_t size) {
+  uint64_t hash = 14695981039346656037u;
+  for (size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 1099511628211u;
+  return hash;
+}
+
+static size_t snapshot_size(void) {
+  size_t size = sizeof(snapshot_t) + hoap2_product_state_size();
+  for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) size += HOAP2_FMU_PRODUCT.group_size[g];
+  return size;
+}
+
+static uint64_t body_checksum(const void *snapshot) {
+  return checksum_of((const unsigned char *)snapshot + sizeof(header_t), snapshot_size() - sizeof(header_t));
+}
+
+static header_t make_header(void) {
+  header_t header;
+  memset(&header, 0, sizeof header);
+  memcpy(header.magic, MAGIC, sizeof MAGIC);
+  header.version = SNAPSHOT_VERSION;
+  header.byte_order = BYTE_ORDER_MARK;
+  strncpy(header.product, HOAP2_FMU_PRODUCT.name, sizeof header.product - 1);
+  strncpy(header.token, HOAP2_FMU_PRODUCT.token, sizeof header.token - 1);
+  header.schema = HOAP2_FMU_PRODUCT.schema;
+  header.body_size = snapshot_size() - sizeof(header_t);
+  return header;
+}
+
+/* NULL, or what is wrong with a header. */
+static const char *header_fault(const header_t *found) {
+  const header_t expected = make_header();
+  if (memcmp(found->magic, expected.magic, sizeof expected.magic) != 0) return "it is not a HOAP-2 state";
+  if (found->version != expected.version) return "its format has another version";
+  if (found->byte_order != expected.byte_order) return "its byte order is another machine's";
+  if (memcmp(found->product, expected.product, sizeof expected.product) != 0) return "it belongs to another product";
+  if (found->schema != expected.schema || memcmp(found->token, expected.token, sizeof expected.token) != 0) {
+    return "it was made with another table of signals";
+  }
+  if (found->body_size != expected.body_size) return "its size is wrong";
+  return NULL;
+}
+
+hoap2_fmu_status_t hoap2_fmu_get_state(hoap2_fmu_instance_t *self, void **state) {
+  if (!state) return hoap2_fmu_error(self, "get state: NULL pointer");
+  if (*state && header_fault(*state)) return hoap2_fmu_error(self, "get state: the given state is not one of this FMU");
+  if (!*state) *state = calloc(1, snapshot_size());
+  if (!*state) return hoap2_fmu_error(self, "get state: out of memory");
+  snapshot_t *snapshot = *state;
+  snapshot->header = make_header();
+  snapshot->fields.mode = (int32_t)self->mode;
+  snapshot->fields.model_ready = self->model_ready;
+  snapshot->fields.tick = self->tick;
+  snapshot->fields.start_time_s = self->start_time_s;
+  snapshot->fields.stop_time_s = self->stop_time_s;
+  char *rest = (char *)(snapshot + 1);
+  for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) {
+    memcpy(rest, self->group[g], HOAP2_FMU_PRODUCT.group_size[g]);
+    rest += HOAP2_FMU_PRODUCT.group_size[g];
+  }
+  if (self->model_ready) {
+    hoap2_product_get_state(self->model, rest);
+  } else {
+    memset(rest, 0, hoap2_product_state_size());
+  }
+  return HOAP2_FMU_OK;
+}
+
+hoap2_fmu_status_t hoap2_fmu_set_state(hoap2_fmu_instance_t *self, const void *state) {
+  if (!state) return hoap2_fmu_error(self, "set state: NULL pointer");
+  const snapshot_t *snapshot = state;
+  const char *fault = header_fault(&snapshot->header);
+  if (fault) return hoap2_fmu_error(self, "set state: %s", fault);
+  const char *groups = (const char *)(snapshot + 1);
+  const char *model = groups;
+  for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) model += HOAP2_FMU_PRODUCT.group_size[g];
+  if (snapshot->fields.model_ready && hoap2_product_set_state(self->model, model) != 0) {
+    return hoap2_fmu_error(self, "set state: %s", hoap2_product_error(self->model));
+  }
+  for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) {
+    memcpy(self->group[g], groups, HOAP2_FMU_PRODUCT.group_size[g]);
+    groups += HOAP2_FMU_PRODUCT.group_size[g];
+  }
+  self->mode = (hoap2_fmu_mode_t)snapshot->fields.mode;
+  self->model_ready = snapshot->fields.model_ready != 0;
+  self->tick = snapshot->fields.tick;
+  self->start_time_s = snapshot->fields.start_time_s;
+  self->stop_time_s = snapshot->fields.stop_time_s;
+  hoap2_fmu_log(self, HOAP2_FMU_LOG_EVENT, "state of %.9g s restored", hoap2_fmu_time_s(self));
+  return HOAP2_FMU_OK;
+}
+
+hoap2_fmu_status_t hoap2_fmu_free_state(hoap2_fmu_instance_t *self, void **state) {
+  if (!state || !*state) return HOAP2_FMU_OK; /* like free(NULL) */
+  snapshot_t *snapshot = *state;
+  const char *fault = header_fault(&snapshot->header);
+  if (fault) return hoap2_fmu_error(self, "free state: %s", fault);
+  memset(&snapshot->header, 0, sizeof snapshot->header);
+  free(snapshot);
+  *state = NULL;
+  return HOAP2_FMU_OK;
+}
+
+hoap2_fmu_status_t hoap2_fmu_serialized_size(hoap2_fmu_instance_t *self, const void *state, size_t *size) {
+  if (!state || !size) return hoap2_fmu_error(self, "serialized size: NULL pointer");
+  *size = snapshot_size();
+  return HOAP2_FMU_OK;
+}
+
+hoap2_fmu_status_t hoap2_fmu_serialize(hoap2_fmu_instance_t *self, const void *state, void *bytes, size_t size) {
+  if (!state || !bytes) return hoap2_fmu_error(self, "serialize: NULL pointer");
+  const char *fault = header_fault(state);
+  if (fault) return hoap2_fmu_error(self, "serialize: %s", fault);
+  if (size < snapshot_size()) {
+    return hoap2_fmu_error(self, "serialize: %zu bytes given, %zu needed", size, snapshot_size());
+  }
+  header_t header = make_header();
+  header.checksum = body_checksum(state);
+  memcpy(bytes, state, snapshot_size());
+  memcpy(bytes, &header, sizeof header);
+  return HOAP2_FMU_OK;
+}
+
+/* Values that no instance of ours writes. */
+static bool fields_plausible(const fields_t *fields) {
+  const bool mode_ok = fields->mode == HOAP2_FMU_INSTANTIATED || fields->mode == HOAP2_FMU_INITIALISING ||
+                       fields->mode == HOAP2_FMU_STEPPING || fields->mode == HOAP2_FMU_TERMINATED;
+  const bool ready_ok = fields->model_ready == 1 || (fields->model_ready == 0 && fields->mode != HOAP2_FMU_STEPPING);
+  return mode_ok && ready_ok && fields->tick >= 0 && isfinite(fields->start_time_s) && !isnan(fields->stop_time_s);
+}
+
+hoap2_fmu_status_t hoap2_fmu_deserialize(hoap2_fmu_instance_t *self, const void *bytes, size_t size, void **state) {
+  if (!state || !bytes) return hoap2_fmu_error(self, "deserialize: NULL pointer");
+  if (size < sizeof(header_t)) return hoap2_fmu_error(self, "deserialize: %zu bytes are too few for a state", size);
+  header_t header;
+  memcpy(&header, bytes, sizeof header);
+  const char *fault = header_fault(&header);
+  if (fault) return hoap2_fmu_error(self, "deserialize: %s", fault);
+  if (size != snapshot_size()) {
+    return hoap2_fmu_error(self, "deserialize: %zu bytes given, a state has %zu", size, snapshot_size());
+  }
+  if (header.checksum != body_checksum(bytes)) {
+    return hoap2_fmu_error(self, "deserialize: the bytes are damaged (checksum)");
+  }
+  fields_t fields;
+  memcpy(&fields, (const char *)bytes + sizeof header, sizeof fields);
+  if (!fields_plausible(&fields)) return hoap2_fmu_error(self, "deserialize: impossible values");
+  void *copy = *state && !header_fault(*state) ? *state : malloc(snapshot_size());
+  if (!copy) return hoap2_fmu_error(self, "deserialize: out of memory");
+  memcpy(copy, bytes, snapshot_size());
+  *state = copy;
+  return HOAP2_FMU_OK;
+}

@@ -1,0 +1,1 @@
+"""The FMUs from Python: build them, judge them, run them."""

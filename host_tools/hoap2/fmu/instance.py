@@ -1,0 +1,347 @@
+"""One running FMU: whole arrays a call, preallocated, for either FMI version.
+
+The arrays `inputs_real, inputs_int, outputs_real, outputs_int` are this instance's exchange
+buffers: fill or read them in place, `write()` and `read()` move them in one FMI call each.
+`input_slices[name]` and `output_slices[name]` say where a row of signals.toml lies in them.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+from pathlib import Path
+
+import fmpy.fmi2
+import fmpy.fmi3
+import numpy as np
+import numpy.typing as npt
+
+from .archive import FmuArchive, FmuCallError, FmuError, FmuFileError, FmuVariableError, Row, nearest
+
+__all__ = ["FmuArchive", "FmuCallError", "FmuError", "FmuFileError", "FmuInstance", "FmuState", "FmuVariableError"]
+
+OK_OR_WARNING = 1
+KEPT_LOG_LINES = 200
+
+
+class FmuState:
+    """A saved state of one instance; freed with it or on release()."""
+
+    def __init__(self, owner: FmuInstance, pointer: ctypes.c_void_p, tick: int | None):
+        self.owner, self.pointer, self.tick = owner, pointer, tick
+
+    def release(self) -> None:
+        """Give the memory back; harmless when done twice."""
+        if self.pointer and self.owner.component:
+            self.owner.call("FreeFMUState", ctypes.byref(self.pointer))
+        self.pointer = ctypes.c_void_p()
+
+
+class _Exchange:
+    """One direction and kind: an array, its references, and the FMI call that moves it."""
+
+    def __init__(self, rows: list[Row], kind: str, version: int):
+        self.slices: dict[str, slice] = {}
+        self.element_names: list[str] = []
+        references: list[int] = []
+        for row in rows:
+            start = len(self.element_names)
+            self.element_names += row.element_names
+            self.slices[row.name] = slice(start, len(self.element_names))
+            references += row.references
+        self.array = np.zeros(len(self.element_names), dtype=np.float64 if kind == "real" else np.int32)
+        self._references = (ctypes.c_uint32 * len(references))(*references)
+        pointer = ctypes.c_void_p(self.array.ctypes.data)
+        count = ctypes.c_size_t(len(references))
+        self.arguments = (self._references, count, pointer)
+        if version == 3:
+            self.arguments += (ctypes.c_size_t(self.array.size),)
+
+
+class FmuInstance:
+    """A Co-Simulation FMU, FMI 2.0 or 3.0, with the variables of signals.toml."""
+
+    def __init__(self, source: str | Path | FmuArchive, product: str | None = None, name: str | None = None,
+                 logging: bool = True):
+        """source: an FMU file, or an archive that several instances share."""
+        self._own_archive = not isinstance(source, FmuArchive)
+        self.archive = FmuArchive(source, product) if self._own_archive else source
+        self.version, self.product, self.rows = self.archive.version, self.archive.product, self.archive.rows
+        self.name = name or self.product
+        self.log: list[tuple[int, str, str]] = []  # status, category, text
+        self._parameters: dict[str, np.ndarray] = {}
+        self.tick = 0
+        self.start_time_s = 0.0
+        self.component: ctypes.c_void_p | None = None
+        self.initialised = False
+        try:
+            self._load(logging)
+        except BaseException:
+            self.close()
+            raise
+        self._make_buffers()
+
+    # --- set-up ---
+
+    def _load(self, logging: bool) -> None:
+        description = self.archive.description
+        kind = fmpy.fmi2.FMU2Slave if self.version == 2 else fmpy.fmi3.FMU3Slave
+        token = description.guid if self.version == 2 else description.instantiationToken
+        try:
+            self.fmu = kind(guid=token, unzipDirectory=str(self.archive.folder),
+                            modelIdentifier=description.coSimulation.modelIdentifier, instanceName=self.name)
+            if self.version == 2:
+                self.fmu.instantiate(loggingOn=logging, callbacks=self._fmi2_callbacks())
+            else:
+                self.fmu.instantiate(loggingOn=logging, logMessage=self._keep_fmi3)
+        except Exception as e:
+            raise FmuFileError(f"{self.archive.path}: the FMU cannot be started: {e}{self._logged()}") from e
+        self.component = self.fmu.component
+        self._handle = ctypes.c_void_p(self.component)
+        # the same library once more, without fmpy's argument conversions: they cost more than the calls
+        self._library = ctypes.CDLL(str(self.archive.binary))
+
+    def _fmi2_callbacks(self) -> fmpy.fmi2.fmi2CallbackFunctions:
+        callbacks = fmpy.fmi2.fmi2CallbackFunctions()
+        callbacks.logger = fmpy.fmi2.fmi2CallbackLoggerTYPE(self._keep_fmi2)
+        callbacks.allocateMemory = fmpy.fmi2.fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
+        callbacks.freeMemory = fmpy.fmi2.fmi2CallbackFreeMemoryTYPE(fmpy.free)
+        return callbacks
+
+    def _keep_fmi2(self, _environment: object, _name: bytes, status: int, category: bytes, text: bytes) -> None:
+        self._keep_fmi3(None, status, category, text)
+
+    def _keep_fmi3(self, _environment: object, status: int, category: bytes, text: bytes) -> None:
+        self.log.append((status, (category or b"").decode(errors="replace"), (text or b"").decode(errors="replace")))
+        del self.log[:-KEPT_LOG_LINES]
+
+    def _logged(self) -> str:
+        """The reasons that the FMU gave since the last successful call that was checked."""
+        texts = [text for status, _, text in self.log if status > OK_OR_WARNING]
+        return ": " + "; ".join(texts[-3:]) if texts else ""
+
+    def _make_buffers(self) -> None:
+        parts = {(group, kind): _Exchange(self.archive.select(group, kind), kind, self.version)
+                 for group in ("input", "output") for kind in ("real", "int")}
+        self.inputs_real, self.inputs_int = parts["input", "real"].array, parts["input", "int"].array
+        self.outputs_real, self.outputs_int = parts["output", "real"].array, parts["output", "int"].array
+        self.input_slices = parts["input", "real"].slices | parts["input", "int"].slices
+        self.output_slices = parts["output", "real"].slices | parts["output", "int"].slices
+        self.output_names_real = parts["output", "real"].element_names
+        self.output_names_int = parts["output", "int"].element_names
+        prefix = f"fmi{self.version}"
+        names = {"real": "Real", "int": "Integer"} if self.version == 2 else {"real": "Float64", "int": "Int32"}
+        self._writers = self._bind(f"{prefix}Set", names, "input", parts)
+        self._readers = self._bind(f"{prefix}Get", names, "output", parts)
+        self._exchange = parts
+        self._now, self._size = ctypes.c_double(), ctypes.c_double()
+        self._do_step = getattr(self._library, f"{prefix}DoStep")
+        if self.version == 2:
+            self._step_arguments = (self._handle, self._now, self._size, ctypes.c_int(1))
+        else:
+            flags = [ctypes.c_bool() for _ in range(3)]
+            self._step_results = (*flags, ctypes.c_double())
+            self._step_arguments = (self._handle, self._now, self._size, ctypes.c_bool(True),
+                                    *[ctypes.byref(r) for r in self._step_results])
+
+    def _bind(self, prefix: str, names: Mapping[str, str], group: str, parts: Mapping) -> list[tuple]:
+        """(function, arguments) of each call that moves something."""
+        return [(getattr(self._library, prefix + names[kind]), (self._handle, *parts[group, kind].arguments))
+                for kind in ("real", "int") if parts[group, kind].array.size]
+
+    # --- calls ---
+
+    def call(self, name: str, *arguments: object) -> None:
+        """An FMI function by its name without the prefix; FmuCallError when it refuses."""
+        if name.endswith("FMUState") or "FMUStateSize" in name:
+            name = self._state_call(name)
+        if not self.component:
+            raise FmuCallError(f"{self.name}: the instance is closed")
+        seen = len(self.log)
+        function = getattr(self._library, f"fmi{self.version}{name}")
+        status = function(self._handle, *arguments)
+        if status > OK_OR_WARNING:
+            self._refused(name, seen)
+
+    def _state_call(self, name: str) -> str:
+        if self.version == 3:
+            return name
+        return name.replace("FMUState", "FMUstate").replace("Deserialize", "DeSerialize")
+
+    def _refused(self, name: str, seen: int = 0) -> None:
+        texts = [text for status, _, text in self.log[seen:] if status > OK_OR_WARNING] or \
+                [text for status, _, text in self.log[-1:]]
+        reason = ": " + "; ".join(texts) if texts else " and gave no reason"
+        raise FmuCallError(f"{self.name} ({self.archive.path.name}) refused {name} at {self.time_s:.3f} s{reason}")
+
+    def set_parameters(self, values: Mapping[str, float | int | npt.ArrayLike]) -> None:
+        """Parameters by row name (a number fills an array) or by element name (`r_knee.posture_rad`)."""
+        known = {r.name: r for r in self.rows.values() if r.group == "parameter"}
+        for name, value in values.items():
+            if name in known:
+                self._set_row(known[name], value)
+            else:
+                self._set_element(name, value, known)
+
+    def _set_row(self, row: Row, value: float | int | npt.ArrayLike) -> None:
+        try:
+            given = np.asarray(value, dtype=np.float64)
+        except (TypeError, ValueError) as e:
+            raise FmuVariableError(f"parameter {row.name}: {value!r} is not a number or a list of numbers") from e
+        if given.size not in (1, row.count):
+            raise FmuVariableError(f"parameter {row.name} has {row.count} elements, {given.size} were given")
+        self._send_parameter(row, np.broadcast_to(given.reshape(-1), (row.count,)))
+
+    def _set_element(self, name: str, value: float | int, known: Mapping[str, Row]) -> None:
+        for row in known.values():
+            if name in row.element_names:
+                data = self._parameter(row).astype(np.float64)
+                data[row.element_names.index(name)] = value
+                self._send_parameter(row, data)
+                return
+        raise FmuVariableError(f"the {self.product} has no parameter {name}{nearest(name, known)}")
+
+    def _send_parameter(self, row: Row, values: np.ndarray) -> None:
+        if row.kind == "int" and not np.array_equal(values, np.round(values)):
+            raise FmuVariableError(f"parameter {row.name} is an integer: {values.tolist()} is not")
+        data = np.ascontiguousarray(values, dtype=np.float64 if row.kind == "real" else np.int32)
+        self._values_call("Set", row.kind, row.references, data)
+        self._parameters[row.name] = data
+
+    def _parameter(self, row: Row) -> np.ndarray:
+        """A parameter's present value: as set here, else the start value."""
+        if row.name not in self._parameters:
+            starts = {v.name: v.start for v in self.archive.description.modelVariables}
+            values = [starts[n] for n in (row.element_names if self.version == 2 else (row.name,))]
+            numbers = values[0] if isinstance(values[0], list) else " ".join(map(str, values)).split()
+            self._parameters[row.name] = np.array([float(x) for x in numbers])
+        return self._parameters[row.name]
+
+    def _values_call(self, verb: str, kind: str, references: tuple[int, ...], data: np.ndarray) -> None:
+        types = {"real": "Real", "int": "Integer"} if self.version == 2 else {"real": "Float64", "int": "Int32"}
+        array = (ctypes.c_uint32 * len(references))(*references)
+        sizes = (ctypes.c_size_t(data.size),) if self.version == 3 else ()
+        self.call(verb + types[kind], array, ctypes.c_size_t(len(references)), ctypes.c_void_p(data.ctypes.data), *sizes)
+
+    def get(self, name: str) -> np.ndarray:
+        """A row's present value, straight from the FMU (slow; for tests and looks)."""
+        if name not in self.rows:
+            raise FmuVariableError(f"the {self.product} has no variable {name}{nearest(name, self.rows)}")
+        row = self.rows[name]
+        data = np.zeros(row.count, dtype=np.float64 if row.kind == "real" else np.int32)
+        self._values_call("Get", row.kind, row.references, data)
+        return data.reshape(row.shape)
+
+    # --- life ---
+
+    def initialize(self, start_time_s: float = 0.0, stop_time_s: float | None = None) -> None:
+        """Through initialisation into stepping; the outputs are read."""
+        self.start_time_s, self.tick = start_time_s, 0
+        stop = (ctypes.c_double(stop_time_s or 0.0),)
+        start = (ctypes.c_double(start_time_s),)
+        tolerance = ctypes.c_double(0.0)
+        if self.version == 2:
+            no, defined = ctypes.c_int(0), ctypes.c_int(stop_time_s is not None)
+            self.call("SetupExperiment", no, tolerance, *start, defined, *stop)
+            self.call("EnterInitializationMode")
+        else:
+            no, defined = ctypes.c_bool(False), ctypes.c_bool(stop_time_s is not None)
+            self.call("EnterInitializationMode", no, tolerance, *start, defined, *stop)
+        self.call("ExitInitializationMode")
+        self.initialised = True
+        self._read_start_inputs()
+        self.read()
+
+    def _read_start_inputs(self) -> None:
+        """The input arrays begin as the FMU's start values."""
+        for kind, array in (("real", self.inputs_real), ("int", self.inputs_int)):
+            references = [r for row in self.archive.select("input", kind) for r in row.references]
+            if references:
+                self._values_call("Get", kind, tuple(references), array)
+
+    @property
+    def time_s(self) -> float:
+        return self.start_time_s + (self.tick * 1000) / 1e6
+
+    def write(self) -> None:
+        """Input arrays -> FMU."""
+        for function, arguments in self._writers:
+            if function(*arguments) > OK_OR_WARNING:
+                self._refused("set inputs")
+
+    def read(self) -> None:
+        """FMU -> output arrays."""
+        for function, arguments in self._readers:
+            if function(*arguments) > OK_OR_WARNING:
+                self._refused("get outputs")
+
+    def step(self, tick_count: int = 1) -> None:
+        """Advance by whole ticks of 1 ms with the inputs held; neither writes nor reads the arrays."""
+        self._now.value = self.start_time_s + (self.tick * 1000) / 1e6
+        self._size.value = (tick_count * 1000) / 1e6
+        seen = len(self.log)
+        if self._do_step(*self._step_arguments) > OK_OR_WARNING:
+            self._refused("DoStep", seen)
+        self.tick += tick_count
+
+    def terminate(self) -> None:
+        """End the simulation and free everything."""
+        if self.component and self.initialised:
+            self.call("Terminate")
+        self.close()
+
+    def close(self) -> None:
+        """Free the instance, whatever its state."""
+        if self.component:
+            getattr(self._library, f"fmi{self.version}FreeInstance")(self._handle)
+            self.component = None
+        if self._own_archive:
+            self.archive.close()
+
+    def __enter__(self) -> FmuInstance:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    # --- states ---
+
+    def get_state(self) -> FmuState:
+        """Save everything; the state stays with this instance."""
+        pointer = ctypes.c_void_p()
+        self.call("GetFMUState", ctypes.byref(pointer))
+        return FmuState(self, pointer, self.tick)
+
+    def set_state(self, state: FmuState) -> None:
+        """Go back to a saved state; the output arrays are read, the input arrays stay as they are."""
+        self.call("SetFMUState", state.pointer)
+        self.initialised = True
+        self.tick = state.tick if state.tick is not None else self._tick_of_fmu()
+        self.read()
+
+    def serialize(self, state: FmuState | None = None) -> bytes:
+        """A state (default: the present one) as bytes, good for another instance or process."""
+        kept = state or self.get_state()
+        size = ctypes.c_size_t()
+        self.call("SerializedFMUStateSize", kept.pointer, ctypes.byref(size))
+        block = ctypes.create_string_buffer(size.value)
+        self.call("SerializeFMUState", kept.pointer, block, size)
+        if state is None:
+            kept.release()
+        return block.raw
+
+    def deserialize(self, block: bytes) -> FmuState:
+        """Bytes -> a state of this instance, for set_state()."""
+        pointer = ctypes.c_void_p()
+        self.call("DeserializeFMUState", block, ctypes.c_size_t(len(block)), ctypes.byref(pointer))
+        return FmuState(self, pointer, None)
+
+    def _tick_of_fmu(self) -> int:
+        """The FMU's own time as ticks since the start time."""
+        time_s = ctypes.c_double()
+        if self.version == 2:
+            self.call("GetRealStatus", ctypes.c_int(2), ctypes.byref(time_s))
+        else:
+            time_reference = (ctypes.c_uint32 * 1)(0)
+            self.call("GetFloat64", time_reference, ctypes.c_size_t(1), ctypes.byref(time_s), ctypes.c_size_t(1))
+        return round((time_s.value - self.start_time_s) * 1000)
