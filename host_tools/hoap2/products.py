@@ -7,9 +7,11 @@ from pathlib import Path
 
 from hoap2 import parameters, paths
 from hoap2.errors import UserError
+from hoap2.fmu.instance import FmuError, FmuInstance
 from hoap2.generate.tables import PRODUCTS
-from hoap2.runner import Products
+from hoap2.master import Side
 from hoap2.scenario import Scenario
+from hoap2.signal_log import Column, columns_of
 
 
 @dataclass(frozen=True)
@@ -27,3 +29,72 @@ class Choice:
         if not named.is_file():
             raise UserError(f"no FMU file {named}", f"--{product} takes the path of an .fmu file")
         return named
+
+
+class FmuSide:
+    """An FMU as the master sees it: its arrays are the FMU's own exchange buffers."""
+
+    def __init__(self, instance: FmuInstance) -> None:
+        self.instance = instance
+        product = instance.product
+        units = {c.name[2:]: c.unit for c in columns_of(product)}
+        named = (("real", instance.output_names_real), ("int", instance.output_names_int))
+        self.outputs = [Column(name, units[name], kind) for kind, names in named for name in names]
+        table = parameters.table()
+        self.inputs = [
+            Column(element, s.unit, s.kind) for s in table.select(product, "input") for element in table.element_names(s)
+        ]
+        self.real_out, self.int_out = instance.outputs_real, instance.outputs_int
+        self.real_in, self.int_in = instance.inputs_real, instance.inputs_int
+        self.get_outputs, self.set_inputs, self.step = instance.read, instance.write, instance.step
+
+
+@dataclass
+class Products:
+    """Both sides, initialised, the files they came from, and how to let go of them."""
+
+    controller: Side
+    plant: Side
+    files: dict[str, Path]
+    instances: tuple[FmuInstance, ...] = ()
+
+    def close(self) -> None:
+        """Free the FMUs; a failing one does not keep the other."""
+        for instance in self.instances:
+            try:
+                instance.terminate()
+            except FmuError:
+                instance.close()
+
+
+def _open(product: str, path: Path, scenario: Scenario) -> FmuInstance:
+    instance = FmuInstance(path, product)
+    try:
+        values = scenario.values[product]
+        for name, signal in parameters.known(product).items():
+            if name in instance.rows:
+                instance.set_parameters({name: values[name]})
+            elif values[name] != signal.default:
+                raise UserError(f"{path} has no parameter {name}, which this scenario sets",
+                                f"leave {product}.{name} at its default, or use an FMU that has it")  # fmt: skip
+        instance.initialize()
+    except BaseException:
+        instance.close()
+        raise
+    return instance
+
+
+def open_both(choice: Choice, scenario: Scenario) -> Products:
+    """Both FMUs, started with the scenario's parameters; UserError when one cannot be used."""
+    files = {product: choice.path(product) for product in PRODUCTS}
+    opened: list[FmuInstance] = []
+    try:
+        for product in PRODUCTS:
+            opened.append(_open(product, files[product], scenario))
+    except (FmuError, UserError) as error:
+        for instance in opened:
+            instance.close()
+        if isinstance(error, UserError):
+            raise
+        raise UserError(str(error)) from None
+    return Products(FmuSide(opened[0]), FmuSide(opened[1]), files, tuple(opened))

@@ -28,10 +28,10 @@ FIGURES = (
 )  # fmt: skip
 
 
-def write(path: Path, scenario: Scenario, log: SignalLog, summary: dict, video: Path | None) -> None:
+def write(path: Path, scenario: Scenario, log: SignalLog, summary: dict, pictures: dict[str, Path]) -> None:
     """Write the report; every part is made from the log and the summary of this run."""
     run = plots.Run(log, scenario)
-    parts = [_head(scenario, summary), _verdict(summary), _video(video), _bounds(summary), "<h2>Plots</h2>"]
+    parts = [_head(scenario, summary), _verdict(summary), _pictures(pictures), _bounds(summary), "<h2>Plots</h2>"]
     for name, title, caption in FIGURES:
         picture = plots.svg(getattr(plots, name)(run), name)
         parts.append(f"<figure><h3>{escape(title)}</h3>{picture}<figcaption>{escape(caption)}</figcaption></figure>")
@@ -82,11 +82,18 @@ def _verdict(summary: dict) -> str:
     return f"<p class='verdict {kind}'><strong>{word}</strong> {escape(' '.join(notes))}</p>"
 
 
-def _video(video: Path | None) -> str:
-    if video is None or not video.is_file():
-        return ""
-    data = base64.b64encode(video.read_bytes()).decode()
-    return f"<video controls muted loop playsinline src='data:video/mp4;base64,{data}'></video>"
+def _data(path: Path, kind: str) -> str:
+    return f"data:{kind};base64,{base64.b64encode(path.read_bytes()).decode()}"
+
+
+def _pictures(pictures: dict[str, Path]) -> str:
+    """The snapshots, as Fig. 7.10 A, and the video; whatever there is of them."""
+    parts = []
+    if "video" in pictures:
+        parts.append(f"<video controls muted loop playsinline src='{_data(pictures['video'], 'video/mp4')}'></video>")
+    if "snapshots" in pictures:
+        parts.append(f"<img class=strip alt='Snapshots of the run' src='{_data(pictures['snapshots'], 'image/png')}'>")
+    return "".join(parts)
 
 
 def _bounds(summary: dict) -> str:

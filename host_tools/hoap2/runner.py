@@ -5,28 +5,19 @@ from __future__ import annotations
 import hashlib
 import subprocess
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
 
-from hoap2 import __version__, bounds, master, metrics, parameters, toml_out
+from hoap2 import __version__, bounds, master, metrics, parameters, runfolder, toml_out
 from hoap2.generate.tables import PRODUCTS, ROOT
+from hoap2.products import Products
 from hoap2.progress import PartProgress, RunProgress
 from hoap2.runfolder import RunFolder
 from hoap2.scenario import Scenario
 from hoap2.signal_log import SignalLog
 
 EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
-
-
-@dataclass
-class Products:
-    """Both sides, initialised, and which files they came from."""
-
-    controller: master.Side
-    plant: master.Side
-    files: dict[str, Path]
 
 
 def ticks_of(scenario: Scenario) -> int:
@@ -124,39 +115,57 @@ def execute(scenario: Scenario, products: Products, folder: RunFolder, console: 
         folder.json("timing.json", outcome.timing.summary() | {"finished": finished})
         # From here on a stop request only leaves out what is still to come.
         summary["notes"] = []
-        wanted = video and outcome.log.count > 1 and stop.signal is None
-        picture = _video(folder, console, quiet, stop, summary) if wanted else None
+        pictures = _pictures(folder, outcome.log, video, console, quiet, stop, summary["notes"])
         summary["peak_memory_mb"] = peak_memory_mb()
         if outcome.log.count > 1:
-            _report(folder, scenario, outcome.log, summary, picture)
+            _report(folder, scenario, outcome.log, summary, pictures)
         folder.json("summary.json", summary)
         path = folder.finish()
-    return summary | {"folder": str(path)}
+    return runfolder.jsonable(summary) | {"folder": str(path)}
 
 
-def _video(folder: RunFolder, console: Console, quiet: bool, stop: master.StopRequest, summary: dict) -> Path | None:
-    """The video, or a note in the summary why there is none: a run is not lost for want of a picture."""
-    from hoap2 import pictures
+def _pictures(folder: RunFolder, log: SignalLog, video: bool, console: Console, quiet: bool,
+              stop: master.StopRequest, notes: list[str]) -> dict[str, Path]:  # fmt: skip
+    """Snapshots (as Fig. 7.10 A) and the video; a run is not lost for want of a picture, the reason is noted."""
+    made: dict[str, Path] = {}
+    if log.count < 2 or stop.signal is not None or (quiet and not video):
+        return made
+    progress = None if quiet or not video else PartProgress("video", console)
 
-    progress = None if quiet else PartProgress("video", console)
-    path = folder.work / "video.mp4"
+    def show(done: int, total: int) -> bool:
+        if progress is not None:
+            progress(done, total)
+        return stop.signal is None
+
     try:
-        pictures.write_video(folder.work, path, progress=progress)
-        return path
+        from hoap2 import pictures
+
+        made["snapshots"] = pictures.strip(folder.work, _moments(log), folder.work / "snapshots.png", size=(240, 360))
+        if video:
+            written = pictures.write_video(folder.work, folder.work / "video.mp4", progress=show)
+            if written is None:
+                notes.append("no video: stopped while it was rendered")
+            else:
+                made["video"] = written
     except (Exception, KeyboardInterrupt) as error:
-        path.unlink(missing_ok=True)
-        summary["notes"].append(f"no video: {error or type(error).__name__}")
-        return None
+        notes.append(f"pictures are missing: {error or type(error).__name__}")
     finally:
         if progress is not None:
             progress.close()
+    return made
 
 
-def _report(folder: RunFolder, scenario: Scenario, log: SignalLog, summary: dict, video: Path | None) -> None:
+def _moments(log: SignalLog, count: int = 6) -> list[float]:
+    """Times of the snapshots: evenly from the first step to the end."""
+    first, last = float(log.t_s[metrics.first_judged_tick(log)]), float(log.t_s[-1])
+    return [first + (last - first) * i / (count - 1) for i in range(count)]
+
+
+def _report(folder: RunFolder, scenario: Scenario, log: SignalLog, summary: dict, pictures: dict[str, Path]) -> None:
     """The report, or a note in the summary why there is none."""
     from hoap2 import report
 
     try:
-        report.write(folder.work / "report.html", scenario, log, summary, video)
+        report.write(folder.work / "report.html", scenario, log, summary, pictures)
     except (Exception, KeyboardInterrupt) as error:
         summary["notes"].append(f"no report: {type(error).__name__}: {error}")

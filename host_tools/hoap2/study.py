@@ -53,7 +53,10 @@ def run_one(request: Request, loaded: scenario.Scenario, out: str | None, consol
     folder = runfolder.RunFolder(path or runfolder.target(loaded.name, out))
     try:
         both = products.open_both(request.choice, loaded)
-        return runner.execute(loaded, both, folder, console, request.video, quiet)
+        try:
+            return runner.execute(loaded, both, folder, console, request.video, quiet)
+        finally:
+            both.close()
     finally:
         folder.discard()  # nothing is left there after `finish`
 
