@@ -31,6 +31,7 @@ typedef struct {
   double cop_from_m[2]; /* CoP when the step began, for the ramp */
   double cop_m[2];      /* desired CoP now */
   double cp_ref_m[2];   /* (7.10) */
+  double cp_deviation_m[2]; /* sensed capture point against that of the CoM reference, low-passed */
 
   /* torso position compliance */
   double cop_error_m[2];

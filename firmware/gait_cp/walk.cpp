@@ -22,25 +22,38 @@ constexpr double kRateTolerance = 1.2;    // joint rate of the plan against the 
 
 double step_time_s(const hoap2_gait_t& gait) { return gait.step_tick * kTick_s; }
 
+// The capture point for the feedback laws: that of the CoM reference plus the low-passed deviation of the
+// sensed one. The sensed point alone would close the laws' gain e^(omega dT) / (e^(omega dT) - 1) around the
+// servo's lightly damped lateral mode; the reference answers at once, the deviation (tilt, push) at the
+// filter's pace.
+void track_capture_point(const hoap2_params_t& params, const hoap2_sense_t& sense, hoap2_gait_t& gait) {
+  for (int i = 0; i < 2; ++i) {
+    const double reference_m = gait.com_m[i] + gait.tpcc_m[i] + (gait.com_rate_m_s[i] + gait.tpcc_rate_m_s[i]) / gait.omega_1_s;
+    const double raw_m = sense.cp_O_m[i] - reference_m;
+    gait.cp_deviation_m[i] += kTick_s / (params.cp_filter_s + kTick_s) * (raw_m - gait.cp_deviation_m[i]);
+  }
+}
+
 // (7.11): horizon to the end of the step, floored because the law is singular there.
 // (7.12): horizon of one control period, towards (7.10) at its end.
-void controlled_cop(const hoap2_params_t& params, const hoap2_sense_t& sense, hoap2_gait_t& gait) {
+void controlled_cop(const hoap2_params_t& params, hoap2_gait_t& gait) {
   const bool cps = params.cp_controller == HOAP2_CP_CONTROLLER_CPS;
   const double left_s = (gait.step_ticks - gait.step_tick) * kTick_s;
   const double horizon_s =
       cps ? (left_s > params.cps_min_dt_s ? left_s : params.cps_min_dt_s) : params.cpt_dt_s;
   const double growth = hoap2_exp(gait.omega_1_s * horizon_s);
+  double cp[2];
   double cop[2];
   double target[2];
   for (int i = 0; i < 2; ++i) {
+    cp[i] = gait.com_m[i] + gait.com_rate_m_s[i] / gait.omega_1_s + gait.cp_deviation_m[i];
     target[i] = cps ? gait.cp_eos_m[i] : capture_point_after(gait.cp_ref_m[i], gait.cop_step_m[i], growth);
-    cop[i] = cop_for_capture_point(target[i], sense.cp_O_m[i], growth);
+    cop[i] = cop_for_capture_point(target[i], cp[i], growth);
   }
   const SupportPolygon polygon =
       gait.swing_foot == 2 ? hull_of_soles(gait.foot[0], gait.foot[1], params.cop_margin_m)
                            : sole_polygon(gait.foot[1 - gait.swing_foot], params.cop_margin_m);
-  const Point2 inside =
-      clamp_cop(polygon, {cop[0], cop[1]}, {sense.cp_O_m[0], sense.cp_O_m[1]}, {target[0], target[1]});
+  const Point2 inside = clamp_cop(polygon, {cop[0], cop[1]}, {cp[0], cp[1]}, {target[0], target[1]});
   gait.cop_m[0] = inside.x;
   gait.cop_m[1] = inside.y;
 }
@@ -48,7 +61,7 @@ void controlled_cop(const hoap2_params_t& params, const hoap2_sense_t& sense, ho
 void planned_cop(const hoap2_params_t& params, hoap2_gait_t& gait) {
   const bool ramp = params.cop_profile == HOAP2_COP_PROFILE_RAMP;
   // the mean of the ramp over the tick to come
-  const double done = ramp ? (step_time_s(gait) + 0.5 * kTick_s) / params.cop_ramp_s : 1.0;
+  const double done = ramp ? (step_time_s(gait) + 0.5 * kTick_s) / ramp_s(params, gait) : 1.0;
   const double share = done < 1.0 ? done : 1.0;
   for (int i = 0; i < 2; ++i) gait.cop_m[i] = gait.cop_from_m[i] + share * (gait.cop_step_m[i] - gait.cop_from_m[i]);
 }
@@ -189,11 +202,12 @@ void hoap2_gait_start(const hoap2_params_t* params, hoap2_gait_t* gait) {
 }
 
 void hoap2_gait_step(const hoap2_params_t* params, const hoap2_sense_t* sense, hoap2_gait_t* gait) {
+  if (gait->feedback) hoap2::track_capture_point(*params, *sense, *gait);
   if (gait->walking) {
     if (params->cp_controller == HOAP2_CP_CONTROLLER_PLAN || !gait->feedback)
       hoap2::planned_cop(*params, *gait);
     else
-      hoap2::controlled_cop(*params, *sense, *gait);
+      hoap2::controlled_cop(*params, *gait);
     hoap2::pendulum_tick(*gait);
     ++gait->step_tick;
     if (gait->step_tick >= gait->step_ticks) hoap2::next_event(*params, *gait);

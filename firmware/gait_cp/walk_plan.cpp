@@ -20,7 +20,7 @@ void plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, doubl
     gait.cop_from_m[i] = gait.cop_m[i];
     cop[i] = params.cop_profile == HOAP2_COP_PROFILE_RAMP
                  ? cop_for_ramp(gait.cp_eos_m[i], gait.cp_start_m[i], gait.cop_from_m[i], gait.omega_1_s, duration_s,
-                                params.cop_ramp_s)
+                                ramp_s(params, gait))
                  : cop_for_capture_point(gait.cp_eos_m[i], gait.cp_start_m[i], growth);
   }
   const Point2 inside = clamp_cop(polygon, {cop[0], cop[1]}, {gait.cp_start_m[0], gait.cp_start_m[1]},
@@ -30,6 +30,12 @@ void plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, doubl
 }
 
 }  // namespace
+
+double ramp_s(const hoap2_params_t& params, const hoap2_gait_t& gait) {
+  if (gait.swing_foot == 2) return params.cop_ramp_s;
+  const double double_support_s = params.ds_fraction * gait.step_ticks * kTick_s;
+  return params.cop_ramp_s < double_support_s ? params.cop_ramp_s : double_support_s;
+}
 
 int32_t step_ticks(double duration_s) { return static_cast<int32_t>(duration_s / kTick_s + 0.5); }
 

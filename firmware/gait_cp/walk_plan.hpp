@@ -20,6 +20,10 @@ void end_step(hoap2_gait_t& gait);
 // After the last step: the CoP stays where the capture point is, and the CoM comes to rest there.
 void begin_settling(const hoap2_params_t& params, hoap2_gait_t& gait);
 
+// Length of the CoP ramp of the step under way: cop_ramp_s, but no longer than the double support the step
+// begins with, because the CoP it leaves lies under the foot about to lift.
+double ramp_s(const hoap2_params_t& params, const hoap2_gait_t& gait);
+
 // Duration of a step or of the shift in ticks.
 int32_t step_ticks(double duration_s);
 

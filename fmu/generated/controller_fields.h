@@ -7,7 +7,7 @@
 #include "../product.h"
 #include "hoap2/generated/signals.h"
 
-#define HOAP2_FMU_TOKEN "{01d74539-52ea-56dc-313a-23a0dcf10c39}"
+#define HOAP2_FMU_TOKEN "{d73ab6a1-88f0-dc9c-28dc-0aa4c8e7d75c}"
 enum { HOAP2_FMU_FIELDS = 80, HOAP2_FMU_ELEMENTS = 383 };
 
 /* name, group, kind, tunable, FMI 2 value reference of the first element, elements, offset, range */

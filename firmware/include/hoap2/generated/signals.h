@@ -91,7 +91,8 @@ typedef struct {
   double cop_margin_m; /* the sole is shrunk by this for the clamping of the CoP [m] */
   double cps_min_dt_s; /* floor of the shrinking horizon of (7.11), which is singular at the end of the step [s] */
   double cpt_dt_s; /* control period of (7.12) [s] */
-  double cop_ramp_s; /* length of the CoP ramp [s] */
+  double cp_filter_s; /* CPS and CPT: low-pass of the deviation of the sensed capture point from the reference's [s] */
+  double cop_ramp_s; /* length of the CoP ramp; in a step it ends with the double support the step begins with [s] */
   double tpcc_kp_1_s2; /* torso position compliance: gain of the CoP error [1/s2] */
   double tpcc_kv_1_s; /* torso position compliance: damping [1/s] */
   double tpcc_kx_1_s2; /* torso position compliance: spring back [1/s2] */
@@ -146,7 +147,8 @@ static inline void hoap2_params_defaults(hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cp_offset_inward_m)[i_] = 0.012;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cop_margin_m)[i_] = 0.004;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cps_min_dt_s)[i_] = 0.05;
-  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cpt_dt_s)[i_] = 0.05;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cpt_dt_s)[i_] = 0.2;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cp_filter_s)[i_] = 0.1;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cop_ramp_s)[i_] = 0.08;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_kp_1_s2)[i_] = 20.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_kv_1_s)[i_] = 20.0;
@@ -196,6 +198,7 @@ static inline int hoap2_params_out_of_range(const hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->cop_margin_m)[i_]; if (!(v_ >= 0.0 && v_ <= 0.02)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->cps_min_dt_s)[i_]; if (!(v_ >= 0.01 && v_ <= 0.4)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->cpt_dt_s)[i_]; if (!(v_ >= 0.01 && v_ <= 0.4)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->cp_filter_s)[i_]; if (!(v_ >= 0.0 && v_ <= 1.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->cop_ramp_s)[i_]; if (!(v_ >= 0.01 && v_ <= 0.2)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->tpcc_kp_1_s2)[i_]; if (!(v_ >= 0.0 && v_ <= 100.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->tpcc_kv_1_s)[i_]; if (!(v_ >= 0.0 && v_ <= 200.0)) ++bad_; }
