@@ -228,7 +228,7 @@ def _feed(run: Recording, rows: list[int], size: tuple[int, int], view: str, sam
 
 def write_video(run: Recording | str | Path, path: str | Path, fps: float = 25.0, size: tuple[int, int] = (960, 540),
                 slow: float = 1.0, progress: Callable[[int, int], object] | None = None, view: str = "quarter",
-                samples: int = 1, overwrite: bool = False) -> Path | None:  # fmt: skip
+                samples: int = 4, overwrite: bool = False) -> Path | None:  # fmt: skip
     """The whole run as MP4 (H.264). slow = 2 plays at half speed. progress(done, total) may return False to stop;
     then nothing is left behind and the answer is None."""
     path = _check_target(Path(path), (".mp4",), overwrite)

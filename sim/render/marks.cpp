@@ -130,6 +130,13 @@ bool finite(const double *values, int count) {
   return std::all_of(values, values + count, [](double v) { return std::isfinite(v); });
 }
 
+// Plane of the ground at x, y: the floor's, or level on top of a block.
+Plane plane_on(const Ground &ground, Vec3 p, float yaw, float lift_m) {
+  const Vec3 top = ground.point(p.x, p.y);
+  const bool on_floor = top.z <= ground.floor_point(p.x, p.y).z;
+  return plane_at(top, on_floor ? ground.normal() : Vec3{0.0F, 0.0F, 1.0F}, yaw, lift_m);
+}
+
 }  // namespace
 
 Ground::Ground(const hoap2_scene_t &scene, const std::array<double, 3> &origin_W_m) {
@@ -162,36 +169,35 @@ Vec3 Ground::point(float x, float y) const {
   return p;
 }
 
-Marks ground_marks(const hoap2_scene_t &scene, const Ground &ground, const std::array<double, 3> &origin_W_m) {
+Marks footprint_marks(const hoap2_scene_t &scene, const Ground &ground, const std::array<double, 3> &origin_W_m) {
   Marks marks;
-  const auto plane = [&](const double *p_W_m, float yaw, float lift_m) {
-    const Vec3 p = local(p_W_m, origin_W_m, 2);
-    const Vec3 g = ground.point(p.x, p.y);
-    const bool on_floor = g.z <= ground.floor_point(p.x, p.y).z;
-    return plane_at(g, on_floor ? ground.normal() : Vec3{0.0F, 0.0F, 1.0F}, yaw, lift_m);
-  };
-  if ((scene.show & HOAP2_SHOW_FOOTPRINTS) != 0) {
-    for (int i = 0; i < scene.footprint_count; ++i) {
-      if (!finite(scene.footprint_W_m_rad[i], 3)) continue;
-      const auto yaw = static_cast<float>(scene.footprint_W_m_rad[i][2]);
-      const int age = scene.footprint_count - 1 - i;
-      const float alpha = std::max(0.45F, 1.0F - 0.06F * static_cast<float>(age));
-      footprint(marks, plane(scene.footprint_W_m_rad[i], yaw, 0.0003F), scene.footprint_left[i] != 0 ? kLeft : kRight,
-                alpha);
-    }
+  if ((scene.show & HOAP2_SHOW_FOOTPRINTS) == 0) return marks;
+  for (int i = 0; i < scene.footprint_count; ++i) {
+    const double *print_W = scene.footprint_W_m_rad[i];
+    if (!finite(print_W, 3)) continue;
+    const Plane plane = plane_on(ground, local(print_W, origin_W_m, 2), static_cast<float>(print_W[2]), 0.0003F);
+    const int age = scene.footprint_count - 1 - i;
+    const float alpha = std::max(0.45F, 1.0F - 0.06F * static_cast<float>(age));
+    footprint(marks, plane, scene.footprint_left[i] != 0 ? kLeft : kRight, alpha);
   }
+  return marks;
+}
+
+Marks point_marks(const hoap2_scene_t &scene, const Ground &ground, const std::array<double, 3> &origin_W_m) {
+  Marks marks;
+  const auto plane = [&](const double *p_W_m, float lift_m) {
+    return plane_on(ground, local(p_W_m, origin_W_m, 2), 0.0F, lift_m);
+  };
   if ((scene.show & HOAP2_SHOW_COM) != 0 && finite(scene.com_W_m, 3)) {
-    const Plane p = plane(scene.com_W_m, 0.0F, 0.0006F);
-    disc(marks, p, 0.0F, 0.0065F, kRim);
-    disc(marks, p, 0.0F, 0.0052F, kCom);
+    disc(marks, plane(scene.com_W_m, 0.0006F), 0.0F, 0.0065F, kRim);
+    disc(marks, plane(scene.com_W_m, 0.0006F), 0.0F, 0.0052F, kCom);
   }
   if ((scene.show & HOAP2_SHOW_COP) != 0 && finite(scene.cop_W_m, 2)) {
-    const Plane p = plane(scene.cop_W_m, 0.0F, 0.0007F);
-    disc(marks, p, 0.0F, 0.0085F, kRim);
-    disc(marks, p, 0.0F, 0.0070F, kCop);
+    disc(marks, plane(scene.cop_W_m, 0.0007F), 0.0F, 0.0085F, kRim);
+    disc(marks, plane(scene.cop_W_m, 0.0007F), 0.0F, 0.0070F, kCop);
   }
   if ((scene.show & HOAP2_SHOW_CP) != 0 && finite(scene.cp_W_m, 2)) {
-    const Plane p = plane(scene.cp_W_m, 0.0F, 0.0008F);
+    const Plane p = plane(scene.cp_W_m, 0.0008F);
     disc(marks, p, 0.0072F, 0.0122F, kRim);
     disc(marks, p, 0.0082F, 0.0112F, kCp);
     disc(marks, p, 0.0F, 0.0034F, kCp);

@@ -43,8 +43,10 @@ class Ground {
   std::vector<Block> blocks_;
 };
 
-// Marks that lie on the ground, bottom first.
-Marks ground_marks(const hoap2_scene_t &scene, const Ground &ground, const std::array<double, 3> &origin_W_m);
+// Footprints, oldest first.
+Marks footprint_marks(const hoap2_scene_t &scene, const Ground &ground, const std::array<double, 3> &origin_W_m);
+// Points on the ground: below the CoM, CoP, capture point. They also shine faintly through the feet.
+Marks point_marks(const hoap2_scene_t &scene, const Ground &ground, const std::array<double, 3> &origin_W_m);
 // Marks in the air; they also shine faintly through the robot.
 Marks air_marks(const hoap2_scene_t &scene, const Ground &ground, const std::array<double, 3> &origin_W_m);
 

@@ -156,12 +156,11 @@ void draw_solids(const Stage &stage, const View &view, const Ground &ground, con
   stage.draw(stage.floor_quad);
 }
 
-void draw_sky(const Stage &stage, const View &view, float aspect) {
+void draw_sky(const Stage &stage, const View &view) {
   const Gl &gl = stage.context.gl();
   const Vec3 forward = unit(view.target - view.eye);
   const float level = std::sqrt(std::max(0.0F, 1.0F - forward.z * forward.z));
   const float half = std::tan(0.5F * static_cast<float>(HOAP2_RENDER_FOV_Y_RAD));
-  (void)aspect;  // the picture's rows are level, so only its height counts
   gl.UseProgram(stage.sky.id);
   set(gl, stage.sky.at(gl, "u_ray_z"), {0.0F, half * level, forward.z});
   gl.DepthMask(GL_FALSE);
@@ -182,15 +181,17 @@ void draw_marks(const Stage &stage, const View &view) {
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(-1.0F, -8.0F);
   gl.Uniform1f(alpha, 1.0F);
-  stage.draw(stage.marks_ground);
-  gl.Disable(GL_POLYGON_OFFSET_FILL);
-  // In the air: what the robot hides shines through, then the visible part in full.
+  stage.draw(stage.footprints);
+  // What the robot hides of the rest shines through, then the visible part comes in full.
   gl.DepthFunc(GL_GREATER);
   gl.Uniform1f(alpha, 0.62F);
+  stage.draw(stage.marks_ground);
   stage.draw(stage.marks_air);
   gl.DepthFunc(GL_LEQUAL);
-  gl.DepthMask(GL_TRUE);
   gl.Uniform1f(alpha, 1.0F);
+  stage.draw(stage.marks_ground);
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+  gl.DepthMask(GL_TRUE);
   stage.draw(stage.marks_air);
   gl.Disable(GL_BLEND);
 }
@@ -230,7 +231,8 @@ void draw(hoap2_render &render, const hoap2_scene_t &scene, uint8_t *rgb) {
   const Gl &gl = stage.context.gl();
   stage.fill(stage.blocks, block_mesh(scene, view));
   stage.fill(stage.floor_quad, floor_corners(view, ground));
-  stage.fill(stage.marks_ground, ground_marks(scene, ground, view.origin_W_m));
+  stage.fill(stage.footprints, footprint_marks(scene, ground, view.origin_W_m));
+  stage.fill(stage.marks_ground, point_marks(scene, ground, view.origin_W_m));
   stage.fill(stage.marks_air, air_marks(scene, ground, view.origin_W_m));
   gl.Enable(GL_DEPTH_TEST);
   gl.Enable(GL_CULL_FACE);
@@ -240,7 +242,7 @@ void draw(hoap2_render &render, const hoap2_scene_t &scene, uint8_t *rgb) {
   gl.Viewport(0, 0, stage.width_px, stage.height_px);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   draw_solids(stage, view, ground, poses, shadow_on);
-  draw_sky(stage, view, aspect);
+  draw_sky(stage, view);
   draw_marks(stage, view);
   read_picture(render, rgb);
   const GLenum problem = gl.GetError();

@@ -77,14 +77,19 @@ class Builder {
 
 void add_trunk(Builder &b) {
   const int pelvis = HOAP2_L_PELVIS;
-  b.box(pelvis, kWhite, {0.0125F, 0.0F, 0.054F}, {0.034F, 0.0655F, 0.0235F}, {0.017F, 0.022F, 0.015F}, {});
-  b.box(pelvis, kDark, {0.0125F, 0.0F, 0.033F}, {0.026F, 0.054F, 0.012F}, 0.006F);
-  b.rod(pelvis, kDark, Axis::y, {0.034F, 0.0F, 0.055F}, 0.0185F, 0.053F);
-  b.detail_rod(pelvis, kNavy, Axis::y, {0.034F, 0.0F, 0.055F}, 0.0120F, 0.0665F);
+  Builder::Form belt;
+  belt.cells = 4;
+  belt.taper_x = 0.05F;
+  b.box(pelvis, kWhite, {0.0145F, 0.0F, 0.052F}, {0.0365F, 0.0660F, 0.0205F}, {0.024F, 0.026F, 0.013F}, belt);
+  b.box(pelvis, kDark, {0.0125F, 0.0F, 0.034F}, {0.027F, 0.054F, 0.013F}, 0.006F);
+  b.detail_rod(pelvis, kNavy, Axis::y, {0.030F, 0.0F, 0.053F}, 0.0105F, 0.0675F);
 
   const int chest = HOAP2_L_CHEST;
   // waist, shell, breast plate, collar
-  b.box(chest, kDark, {-0.016F, 0.0F, 0.014F}, {0.036F, 0.043F, 0.026F}, {0.016F, 0.016F, 0.012F}, {});
+  Builder::Form abdomen;
+  abdomen.cells = 3;
+  abdomen.taper_x = -0.08F;
+  b.box(chest, kDark, {-0.016F, 0.0F, 0.016F}, {0.0345F, 0.044F, 0.026F}, {0.020F, 0.020F, 0.012F}, abdomen);
   Builder::Form shell;
   shell.taper_x = 0.10F;
   shell.taper_y = 0.13F;
@@ -124,12 +129,13 @@ void add_head(Builder &b) {
   Builder::Form visor;
   visor.cells = 4;
   b.box(head, kGlass, {0.0105F, 0.0F, 0.002F}, {0.0275F, 0.0315F, 0.0165F}, {0.0275F, 0.0290F, 0.0120F}, visor);
-  for (const float y : {-0.0125F, 0.0125F}) b.detail_rod(head, kLens, Axis::x, {0.0345F, y, 0.002F}, 0.0046F, 0.0022F);
+  for (const float y : {-0.0130F, 0.0130F}) {
+    b.detail_box(head, kLens, {0.0350F, y, 0.002F}, {0.0032F, 0.0046F, 0.0046F}, 0.0046F);
+  }
   for (const float y : {-0.0345F, 0.0345F}) {
     b.rod(head, kDark, Axis::y, {-0.003F, y, 0.000F}, 0.0125F, 0.0035F);
     b.detail_rod(head, kNavy, Axis::y, {-0.003F, y, 0.000F}, 0.0080F, 0.0048F);
   }
-  b.detail_box(head, kNavy, {-0.004F, 0.0F, 0.0345F}, {0.018F, 0.0045F, 0.0045F}, 0.004F);
 }
 
 struct Arm {

@@ -53,7 +53,7 @@ void Stage::make_programs() {
 
 void Stage::make_buffers() {
   for (Batch *batch : {&robot, &robot_shadow, &blocks}) make_batch(*batch, true);
-  for (Batch *batch : {&floor_quad, &sky_quad, &marks_ground, &marks_air}) make_batch(*batch, false);
+  for (Batch *batch : {&floor_quad, &sky_quad, &footprints, &marks_ground, &marks_air}) make_batch(*batch, false);
   fill(robot, robot_mesh(Detail::picture));
   fill(robot_shadow, robot_mesh(Detail::shadow));
   fill(sky_quad, std::vector<Vec3>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
@@ -160,7 +160,7 @@ void Stage::destroy() {
   for (const Program *program : {&solid, &shadow, &floor, &sky, &mark}) {
     if (program->id != 0) gl.DeleteProgram(program->id);
   }
-  for (Batch *batch : {&robot, &robot_shadow, &blocks, &floor_quad, &sky_quad, &marks_ground, &marks_air}) {
+  for (Batch *batch : {&robot, &robot_shadow, &blocks, &floor_quad, &sky_quad, &footprints, &marks_ground, &marks_air}) {
     if (batch->array != 0) gl.DeleteVertexArrays(1, &batch->array);
     if (batch->vertices != 0) gl.DeleteBuffers(1, &batch->vertices);
     if (batch->indices != 0) gl.DeleteBuffers(1, &batch->indices);

@@ -34,7 +34,7 @@ class Stage {
   int width_px, height_px, samples;
 
   Program solid, shadow, floor, sky, mark;
-  Batch robot, robot_shadow, blocks, floor_quad, sky_quad, marks_ground, marks_air;
+  Batch robot, robot_shadow, blocks, floor_quad, sky_quad, footprints, marks_ground, marks_air;
   GLuint picture_buffer = 0, resolve_buffer = 0, shadow_buffer = 0, shadow_map = 0;
 
   void fill(Batch &batch, const Mesh &mesh) const;
