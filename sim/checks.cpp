@@ -12,6 +12,7 @@ namespace {
 constexpr double kInputLimit = 1e6;
 // A body faster than this has left physics.
 constexpr double kSpeedLimit = 1e4;
+constexpr double kQuatTolerance = 1e-6;
 constexpr double kPostureTolerance_rad = 1e-6;
 
 // The generated range check only counts: find the parameter by putting the default
@@ -102,8 +103,9 @@ std::string fault_of_bodies(const State &state) {
     for (int i = 0; i < 3; ++i) {
       sum += std::fabs(body.com_vel_W_m_s[i]) + std::fabs(body.omega_W_rad_s[i]) + 0.0 * body.com_pos_W_m[i];
     }
-    for (int i = 0; i < 4; ++i) sum += 0.0 * body.quat_W[i];
-    if (!(sum <= kSpeedLimit)) {
+    double square = 0.0;
+    for (const double q : body.quat_W) square += q * q;
+    if (!(sum <= kSpeedLimit) || !(std::fabs(square - 1.0) < kQuatTolerance)) {
       return std::string("the simulation diverged at link ") + HOAP2_LINK_NAME[link] +
              "; the state before this tick is kept";
     }

@@ -32,7 +32,7 @@ class Plant {
 
  private:
   int fail(const std::string &text);
-  void build();
+  int build();
   void apply_pushes(State *next);
   void solve(const hoap2_plant_inputs_t &inputs, State *next);
   bool correct_saturation(const double rate_rad_s[HOAP2_JOINTS], bool may_release);
@@ -52,9 +52,15 @@ int Plant::fail(const std::string &text) {
   return 1;
 }
 
-void Plant::build() {
-  engine_.build(state_.params);
-  ground_.build(state_.params);
+int Plant::build() {
+  try {
+    engine_.build(state_.params);
+    ground_.build(state_.params);
+  } catch (const OdeFailure &failure) {
+    engine_.abandon();
+    return fail(failure.what());
+  }
+  return 0;
 }
 
 int Plant::init(const hoap2_plant_params_t &params) {
@@ -69,15 +75,15 @@ int Plant::init(const hoap2_plant_params_t &params) {
   std::memcpy(&state_.params, &params, kUsed);
   place_robot(&state_);
   for (int j = 0; j < HOAP2_JOINTS; ++j) {
-    state_.drive[j] = {joint_angle_rad(state_, j), joint_rate_rad_s(state_, j), 0.0};
+    const double rate_rad_s = joint_rate_rad_s(state_, j);
+    state_.drive[j] = {joint_angle_rad(state_, j), rate_rad_s, rate_rad_s, 0.0};
   }
   for (int k = 0; k < 2; ++k) {  // before the first contact: midway between the soles
     state_.cop_W_m[k] = 0.5 * (sole_point_W_m(state_, 0)[k] + sole_point_W_m(state_, 1)[k]);
   }
   sensors_start(&state_);
-  build();
   error_[0] = '\0';
-  return 0;
+  return build();
 }
 
 int Plant::restore(const void *bytes) {
@@ -86,11 +92,13 @@ int Plant::restore(const void *bytes) {
   if (saved.magic != kStateMagic || saved.version != kStateVersion || saved.size != sizeof(State)) {
     return fail("the block is not a plant state of this version");
   }
+  // The block may come from a file: nothing of it is believed that could break the engine.
+  const std::string fault = fault_of_params(saved.params) + fault_of_bodies(saved);
+  if (!fault.empty()) return fail("the saved state is damaged: " + fault);
   const bool same_world = engine_.built() && std::memcmp(&saved.params, &state_.params, sizeof saved.params) == 0;
   state_ = saved;
-  if (!same_world) build();
   error_[0] = '\0';
-  return 0;
+  return same_world ? 0 : build();
 }
 
 void Plant::apply_pushes(State *next) {
@@ -136,7 +144,7 @@ void Plant::solve(const hoap2_plant_inputs_t &inputs, State *next) {
     engine_.row_rates(axis_W, rate_rad_s);
     if (solves == kMaxSolves || !correct_saturation(rate_rad_s, solves == 1)) break;
   }
-  engine_.read(next);
+  engine_.read(state_, next);
   for (int j = 0; j < HOAP2_JOINTS; ++j) {
     next->drive[j] = drive_[j].finish(joint_angle_rad(*next, j), rate_rad_s[j]);
   }

@@ -22,12 +22,14 @@ struct BodyState {
   double quat_W[4];
   double com_vel_W_m_s[3];
   double omega_W_rad_s[3];
+  double omega_before_W_rad_s[3];  // a tick earlier
 };
 
 // The rotor side of a joint. Equal to the link side unless the joint is compliant.
 struct DriveState {
   double rotor_q_rad;
   double rotor_qd_rad_s;
+  double rotor_qd_before_rad_s;  // a tick earlier
   double tau_Nm;  // drive torque of the last tick, after limits
 };
 

@@ -70,8 +70,12 @@ void Drive::begin(const State &state, const hoap2_plant_inputs_t &in, int j) {
   }
   peak_Nm_ = joint.torque_peak_Nm;
   inertia_per_tick_ = joint.armature_kgm2 / kTick_s;
-  // Coulomb friction over the rate after the tick: dissipates whatever that rate is.
-  const double speed_rad_s = std::fmax(std::fabs(rotor_qd_rad_s_), kFrictionRate_rad_s);
+  // Coulomb friction as a coefficient of the rate after the tick: dissipates whatever
+  // that rate is. A rotor that speeds up is met with its extrapolated speed, else the
+  // friction would lag and look like inertia.
+  const double extrapolated_rad_s = 2.0 * rotor_qd_rad_s_ - state.drive[j].rotor_qd_before_rad_s;
+  const double speed_rad_s = std::fmax(std::fmax(std::fabs(rotor_qd_rad_s_), std::fabs(extrapolated_rad_s)),
+                                       kFrictionRate_rad_s);
   friction_Nms_rad_ = params.joint_friction_scale *
                       (joint.friction_viscous_Nms_rad + joint.friction_coulomb_Nm / speed_rad_s);
   spring_now_Nm_ = params.roll_stiffness_Nm_rad * (rotor_q_rad_ - link_q_rad);
@@ -135,6 +139,7 @@ DriveState Drive::finish(double link_q_next_rad, double link_qd_next_rad_s) cons
   DriveState next;
   next.rotor_q_rad = compliant_ ? rotor_q_rad_ + kTick_s * rate_rad_s : link_q_next_rad;
   next.rotor_qd_rad_s = rate_rad_s;
+  next.rotor_qd_before_rad_s = rotor_qd_rad_s_;
   next.tau_Nm = drive.base_Nm - drive.slope_Nms_rad * rate_rad_s;
   return next;
 }

@@ -30,14 +30,14 @@ class Engine {
   // freeing it could run into the same failure.
   void abandon();
 
-  // Poses and velocities of all bodies; forces are cleared.
+  // Poses, velocities and gyroscopic torques of all bodies; other forces are cleared.
   void write(const State &state);
   void add_force(int link, const double force_W_N[3], const double point_W_m[3]);
   void set_motor(int joint, const MotorRow &row);
   void set_contacts(const ContactList &contacts, double friction_mu);
   void step();
-  // Poses and velocities after step().
-  void read(State *state) const;
+  // Poses and velocities after step(), from the state before it.
+  void read(const State &before, State *state) const;
   // Rate of each joint after step(), along the axis that the step's motor row used.
   void row_rates(const double axis_W[HOAP2_JOINTS][3], double rate_rad_s[HOAP2_JOINTS]) const;
   // Force of contact i on its link, and moment about the link's CoM.

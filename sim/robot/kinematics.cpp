@@ -63,6 +63,7 @@ void set_start_velocities(State *state) {
     const Vec3 arm_W_m = vec(body.com_pos_W_m) - com_W_m;
     put(vec(state->params.start_vel_W_m_s) + cross(omega_W_rad_s, arm_W_m), body.com_vel_W_m_s);
     put(omega_W_rad_s, body.omega_W_rad_s);
+    put(omega_W_rad_s, body.omega_before_W_rad_s);
   }
 }
 
