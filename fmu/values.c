@@ -3,10 +3,12 @@
 
 #include "instance.h"
 
+/* Neighbouring elements of one row: most importers ask for whole rows, element by element. */
 typedef struct {
   const hoap2_fmu_field_t *field;
   uint32_t element; /* first element meant */
   uint32_t count;   /* elements meant */
+  size_t used;      /* references that mean them */
 } span_t;
 
 static size_t element_size(int kind) { return kind == HOAP2_FMU_REAL ? sizeof(double) : sizeof(int32_t); }
@@ -15,9 +17,8 @@ static char *element_address(void *group, const hoap2_fmu_field_t *field, uint32
   return (char *)group + field->offset + element * element_size(field->kind);
 }
 
-/* Row that holds element `reference` (from 1), given that references mostly rise: hint is tried first. */
-static const hoap2_fmu_field_t *row_of_element(unsigned reference, const hoap2_fmu_field_t *hint) {
-  if (hint && reference >= hint->first_element && reference < hint->first_element + hint->count) return hint;
+/* Row that holds element `reference` (from 1), or NULL. */
+static const hoap2_fmu_field_t *row_of_element(unsigned reference) {
   if (reference == 0 || reference > HOAP2_FMU_PRODUCT.element_count) return NULL;
   uint32_t low = 0, high = HOAP2_FMU_PRODUCT.field_count; /* first_element of low <= reference < that of high */
   while (high - low > 1) {
@@ -31,20 +32,29 @@ static const hoap2_fmu_field_t *row_of_element(unsigned reference, const hoap2_f
   return &HOAP2_FMU_PRODUCT.fields[low];
 }
 
-static bool find(hoap2_fmu_instance_t *self, bool by_row, int kind, unsigned reference, span_t *span) {
+/* What the next of `left` references mean; false (and a log) when the first means nothing of this kind. */
+static bool find(hoap2_fmu_instance_t *self, bool by_row, int kind, const unsigned *references, size_t left,
+                 span_t *span) {
+  const unsigned first = references[0];
   if (by_row) {
-    const bool known = reference >= 1 && reference <= HOAP2_FMU_PRODUCT.field_count;
-    span->field = known ? &HOAP2_FMU_PRODUCT.fields[reference - 1] : NULL;
+    const bool known = first >= 1 && first <= HOAP2_FMU_PRODUCT.field_count;
+    span->field = known ? &HOAP2_FMU_PRODUCT.fields[first - 1] : NULL;
     span->element = 0;
     span->count = known ? span->field->count : 0;
+    span->used = 1;
   } else {
-    span->field = row_of_element(reference, span->field);
-    span->element = span->field ? reference - span->field->first_element : 0;
-    span->count = 1;
+    span->field = row_of_element(first);
+    span->element = span->field ? first - span->field->first_element : 0;
+    const size_t rest = span->field ? span->field->count - span->element : 0;
+    const size_t most = left < rest ? left : rest;
+    size_t run = 1;
+    while (run < most && references[run] == first + run) ++run;
+    span->count = (uint32_t)run;
+    span->used = run;
   }
   if (span->field && span->field->kind == kind) return true;
   hoap2_fmu_error(self, "there is no %s variable with value reference %u", kind == HOAP2_FMU_REAL ? "real" : "integer",
-                  reference);
+                  first);
   return false;
 }
 
@@ -74,27 +84,29 @@ static bool is_time(bool by_row, int kind, unsigned reference) {
 hoap2_fmu_status_t hoap2_fmu_get(hoap2_fmu_instance_t *self, bool by_row, int kind, const unsigned *references,
                                  size_t count, void *values, size_t value_count) {
   if (!arguments_ok(self, references, count, values)) return HOAP2_FMU_ERROR;
-  span_t span = {NULL, 0, 0};
+  span_t span = {NULL, 0, 0, 0};
   size_t total = 0;
-  for (size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < count; i += span.used) {
     if (is_time(by_row, kind, references[i])) {
       total += 1;
+      span.used = 1;
       continue;
     }
-    if (!find(self, by_row, kind, references[i], &span)) return HOAP2_FMU_ERROR;
+    if (!find(self, by_row, kind, references + i, count - i, &span)) return HOAP2_FMU_ERROR;
     if (span.field->group == HOAP2_FMU_OUTPUT && hoap2_fmu_prepare(self) != HOAP2_FMU_OK) return HOAP2_FMU_ERROR;
     total += span.count;
   }
   if (!sizes_ok(self, total, value_count)) return HOAP2_FMU_ERROR;
   char *target = values;
-  for (size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < count; i += span.used) {
     if (is_time(by_row, kind, references[i])) {
+      span.used = 1;
       const double time_s = hoap2_fmu_time_s(self);
       memcpy(target, &time_s, sizeof time_s);
       target += sizeof time_s;
       continue;
     }
-    find(self, by_row, kind, references[i], &span);
+    find(self, by_row, kind, references + i, count - i, &span);
     const size_t bytes = span.count * element_size(kind);
     memcpy(target, element_address(self->group[span.field->group], span.field, span.element), bytes);
     target += bytes;
@@ -117,10 +129,10 @@ static bool may_set(hoap2_fmu_instance_t *self, bool by_row, const span_t *span)
 /* Write the values of one group's variables to target (that group's struct); all were checked before. */
 static void write_group(hoap2_fmu_instance_t *self, int group, void *target, bool by_row, int kind,
                         const unsigned *references, size_t count, const void *values) {
-  span_t span = {NULL, 0, 0};
+  span_t span = {NULL, 0, 0, 0};
   const char *source = values;
-  for (size_t i = 0; i < count; ++i) {
-    find(self, by_row, kind, references[i], &span);
+  for (size_t i = 0; i < count; i += span.used) {
+    find(self, by_row, kind, references + i, count - i, &span);
     const size_t bytes = span.count * element_size(kind);
     if (span.field->group == group) memcpy(element_address(target, span.field, span.element), source, bytes);
     source += bytes;
@@ -139,11 +151,11 @@ static hoap2_fmu_status_t tune(hoap2_fmu_instance_t *self) {
 hoap2_fmu_status_t hoap2_fmu_set(hoap2_fmu_instance_t *self, bool by_row, int kind, const unsigned *references,
                                  size_t count, const void *values, size_t value_count) {
   if (!arguments_ok(self, references, count, values)) return HOAP2_FMU_ERROR;
-  span_t span = {NULL, 0, 0};
+  span_t span = {NULL, 0, 0, 0};
   size_t total = 0;
   bool parameters = false;
-  for (size_t i = 0; i < count; ++i) {
-    if (!find(self, by_row, kind, references[i], &span) || !may_set(self, by_row, &span)) return HOAP2_FMU_ERROR;
+  for (size_t i = 0; i < count; i += span.used) {
+    if (!find(self, by_row, kind, references + i, count - i, &span) || !may_set(self, by_row, &span)) return HOAP2_FMU_ERROR;
     parameters = parameters || span.field->group == HOAP2_FMU_PARAMETER;
     total += span.count;
   }
