@@ -147,7 +147,7 @@ def log_columns(controller: Side, plant: Side) -> list[Column]:
     ]
 
 
-class _Recorder:
+class Recorder:
     """Copies both products' outputs into the log's next row."""
 
     def __init__(self, controller: Side, plant: Side, log: SignalLog) -> None:
@@ -185,7 +185,7 @@ def run(controller: Side, plant: Side, ticks: int, stop_after_fall_s: float, sto
 def _loop(controller: Side, plant: Side, ticks: int, stop_after_fall_s: float, stop: StopRequest,
           progress: Callable[[SignalLog], None] | None, outcome: Outcome) -> None:  # fmt: skip
     log, timing = outcome.log, outcome.timing
-    recorder = _Recorder(controller, plant, log)
+    recorder = Recorder(controller, plant, log)
     wires = connect(plant, controller) + connect(controller, plant)
     fall = _FallWatch(log, stop_after_fall_s)
     now = time.perf_counter_ns
