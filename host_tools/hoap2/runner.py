@@ -155,7 +155,7 @@ def _pictures(folder: RunFolder, log: SignalLog, video: bool, console: Console, 
     return made
 
 
-def _moments(log: SignalLog, count: int = 6) -> list[float]:
+def _moments(log: SignalLog, count: int = 5) -> list[float]:
     """Times of the snapshots: evenly from the first step to the end."""
     first, last = float(log.t_s[metrics.first_judged_tick(log)]), float(log.t_s[-1])
     return [first + (last - first) * i / (count - 1) for i in range(count)]
