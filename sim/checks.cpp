@@ -17,13 +17,13 @@ constexpr double kPostureTolerance_rad = 1e-6;
 
 // The generated range check only counts: find the parameter by putting the default
 // back, one parameter at a time, and seeing the count fall.
-#define HOAP2_TRY(name)                                                                     \
-  do {                                                                                      \
-    hoap2_plant_params_t trial_ = params;                                                   \
-    for (std::size_t i_ = 0; i_ < sizeof trial_.name; ++i_) {                               \
+#define HOAP2_TRY(name)                                                                            \
+  do {                                                                                             \
+    hoap2_plant_params_t trial_ = params;                                                          \
+    for (std::size_t i_ = 0; i_ < sizeof trial_.name; ++i_) {                                      \
       reinterpret_cast<char *>(&trial_.name)[i_] = reinterpret_cast<const char *>(&good.name)[i_]; \
-    }                                                                                       \
-    if (hoap2_plant_params_out_of_range(&trial_) < bad) return #name;                       \
+    }                                                                                              \
+    if (hoap2_plant_params_out_of_range(&trial_) < bad) return #name;                              \
   } while (false)
 
 const char *name_of_bad_parameter(const hoap2_plant_params_t &params, int bad) {

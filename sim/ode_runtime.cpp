@@ -10,9 +10,10 @@ namespace hoap2_sim {
 namespace {
 
 [[noreturn]] void raise(const char *kind, int number, const char *format, va_list arguments) {
-  char text[256];
+  char text[256], whole[320];
   std::vsnprintf(text, sizeof text, format, arguments);
-  throw OdeFailure(std::string("ODE ") + kind + " " + std::to_string(number) + ": " + text);
+  std::snprintf(whole, sizeof whole, "ODE %s %d: %s", kind, number, text);
+  throw OdeFailure(whole);
 }
 
 void on_error(int number, const char *format, va_list arguments) {

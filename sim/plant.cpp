@@ -95,7 +95,8 @@ int Plant::restore(const void *bytes) {
   // The block may come from a file: nothing of it is believed that could break the engine.
   const std::string fault = fault_of_params(saved.params) + fault_of_bodies(saved);
   if (!fault.empty()) return fail("the saved state is damaged: " + fault);
-  const bool same_world = engine_.built() && std::memcmp(&saved.params, &state_.params, sizeof saved.params) == 0;
+  const bool same_world =
+      engine_.built() && std::memcmp(&saved.params, &state_.params, sizeof saved.params) == 0;
   state_ = saved;
   error_[0] = '\0';
   return same_world ? 0 : build();

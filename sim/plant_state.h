@@ -30,7 +30,7 @@ struct DriveState {
   double rotor_q_rad;
   double rotor_qd_rad_s;
   double rotor_qd_before_rad_s;  // a tick earlier
-  double tau_Nm;  // drive torque of the last tick, after limits
+  double tau_Nm;                 // drive torque of the last tick, after limits
 };
 
 struct SensorFrame {
@@ -42,8 +42,8 @@ struct SensorFrame {
 };
 
 struct SensorState {
-  SensorFrame now;      // what the sensors measured in the last tick
-  SensorFrame shown;    // what the outputs show (one frame older in the preset hoap2)
+  SensorFrame now;    // what the sensors measured in the last tick
+  SensorFrame shown;  // what the outputs show (one frame older in the preset hoap2)
   double gyro_lp_S_rad_s[3];
   double accel_lp_S_m_s2[3];
   double imu_vel_W_m_s[3];  // velocity of the sensor point at the end of the last tick

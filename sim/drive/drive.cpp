@@ -74,8 +74,8 @@ void Drive::begin(const State &state, const hoap2_plant_inputs_t &in, int j) {
   // that rate is. A rotor that speeds up is met with its extrapolated speed, else the
   // friction would lag and look like inertia.
   const double extrapolated_rad_s = 2.0 * rotor_qd_rad_s_ - state.drive[j].rotor_qd_before_rad_s;
-  const double speed_rad_s = std::fmax(std::fmax(std::fabs(rotor_qd_rad_s_), std::fabs(extrapolated_rad_s)),
-                                       kFrictionRate_rad_s);
+  const double speed_rad_s =
+      std::fmax(std::fmax(std::fabs(rotor_qd_rad_s_), std::fabs(extrapolated_rad_s)), kFrictionRate_rad_s);
   friction_Nms_rad_ = params.joint_friction_scale *
                       (joint.friction_viscous_Nms_rad + joint.friction_coulomb_Nm / speed_rad_s);
   spring_now_Nm_ = params.roll_stiffness_Nm_rad * (rotor_q_rad_ - link_q_rad);

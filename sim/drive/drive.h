@@ -44,12 +44,12 @@ class Drive {
   double peak_Nm_ = 0.0;
   int saturation_ = 0;
   double rotor_q_rad_ = 0.0, rotor_qd_rad_s_ = 0.0;
-  double inertia_per_tick_ = 0.0;   // Ia / h
-  double friction_Nms_rad_ = 0.0;   // friction torque over the rotor's rate after the tick
+  double inertia_per_tick_ = 0.0;  // Ia / h
+  double friction_Nms_rad_ = 0.0;  // friction torque over the rotor's rate after the tick
   bool compliant_ = false;
-  double spring_now_Nm_ = 0.0;      // k (q_rotor - q_link)
-  double spring_Nms_rad_ = 0.0;     // h k + c
-  DriveLaw stop_{0.0, 0.0};         // mechanical stop, acts on the link
+  double spring_now_Nm_ = 0.0;   // k (q_rotor - q_link)
+  double spring_Nms_rad_ = 0.0;  // h k + c
+  DriveLaw stop_{0.0, 0.0};      // mechanical stop, acts on the link
 };
 
 // Roll joints of hips and ankles, when the run makes them compliant.

@@ -19,7 +19,8 @@ double push_profile(double after_start_s, double duration_s, double ramp_s) {
 void push_force(const hoap2_plant_params_t &params, std::int64_t tick, int i, double force_W_N[3]) {
   // The middle of the tick stands for the tick.
   const double time_s = kTick_s * (static_cast<double>(tick) + 0.5);
-  const double share = push_profile(time_s - params.push_start_s[i], params.push_duration_s[i], params.push_ramp_s[i]);
+  const double share =
+      push_profile(time_s - params.push_start_s[i], params.push_duration_s[i], params.push_ramp_s[i]);
   for (int k = 0; k < 3; ++k) force_W_N[k] = share * params.push_force_W_N[i][k];
 }
 

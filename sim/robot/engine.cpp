@@ -18,8 +18,8 @@ constexpr double kWorldErp = 0.2;
 
 dContact contact_of(const Contact &at, double friction_mu) {
   dContact contact = {};
-  contact.surface.mode = dContactSoftERP | dContactSoftCFM | dContactApprox1 | dContactFDir1 | dContactSlip1 |
-                         dContactSlip2;
+  contact.surface.mode =
+      dContactSoftERP | dContactSoftCFM | dContactApprox1 | dContactFDir1 | dContactSlip1 | dContactSlip2;
   contact.surface.mu = friction_mu;
   contact.surface.soft_erp = kTick_s * kContactStiffness_N_m / kContactRow_Ns_m;
   contact.surface.soft_cfm = 1.0 / kContactRow_Ns_m;

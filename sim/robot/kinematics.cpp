@@ -122,7 +122,8 @@ double joint_angle_rad(const State &s, int joint) {
 double joint_rate_rad_s(const State &s, int joint) {
   const hoap2_joint_data_t &data = HOAP2_JOINT[joint];
   const Vec3 axis_W = link_axes_W(s, data.child_link).column(data.axis);
-  return dot(axis_W, vec(s.body[data.child_link].omega_W_rad_s) - vec(s.body[data.parent_link].omega_W_rad_s));
+  return dot(axis_W,
+             vec(s.body[data.child_link].omega_W_rad_s) - vec(s.body[data.parent_link].omega_W_rad_s));
 }
 
 void total_com(const State &s, Vec3 *com_W_m, Vec3 *com_rate_W_m_s) {

@@ -34,7 +34,8 @@ Imu imu_truth(const State &s, const Vec3 &vel_before_W_m_s, const Vec3 &vel_W_m_
   const Mat3 chest_axes = link_axes_W(s, HOAP2_IMU_LINK);
   const Vec3 up_g = {0.0, 0.0, s.params.gravity_m_s2};
   const Vec3 specific_W_m_s2 = (1.0 / kTick_s) * (vel_W_m_s - vel_before_W_m_s) + up_g;
-  return {turn_back(chest_axes, vec(s.body[HOAP2_IMU_LINK].omega_W_rad_s)), turn_back(chest_axes, specific_W_m_s2)};
+  return {turn_back(chest_axes, vec(s.body[HOAP2_IMU_LINK].omega_W_rad_s)),
+          turn_back(chest_axes, specific_W_m_s2)};
 }
 
 void measure_imu(State *s, const Imu &truth, SensorFrame *frame) {

@@ -49,7 +49,8 @@ void update_cop(State *s) {
   for (int foot = 0; foot < 2; ++foot) {
     const Vec3 f_W_N = vec(s->foot[foot].force_W_N);
     force_W_N = force_W_N + f_W_N;
-    moment_W_Nm = moment_W_Nm + vec(s->foot[foot].moment_W_Nm) + cross(sole_point_W_m(*s, foot) - about_W_m, f_W_N);
+    moment_W_Nm =
+        moment_W_Nm + vec(s->foot[foot].moment_W_Nm) + cross(sole_point_W_m(*s, foot) - about_W_m, f_W_N);
   }
   const double normal_N = dot(floor.normal_W(), force_W_N);
   if (normal_N < kLoaded_N) return;

@@ -33,7 +33,8 @@ class Rig {
     ASSERT_EQ(0, hoap2_plant_init(plant_, &params)) << hoap2_plant_error(plant_);
   }
   void step(int ticks = 1) {
-    for (int i = 0; i < ticks; ++i) ASSERT_EQ(0, hoap2_plant_step(plant_, &inputs)) << hoap2_plant_error(plant_);
+    for (int i = 0; i < ticks; ++i)
+      ASSERT_EQ(0, hoap2_plant_step(plant_, &inputs)) << hoap2_plant_error(plant_);
   }
   hoap2_plant_outputs_t out() const {
     hoap2_plant_outputs_t outputs;
@@ -50,7 +51,8 @@ class Rig {
 
   void posture(std::initializer_list<std::pair<int, double>> joints_deg) {
     for (double &q : params.start_posture_rad) q = 0.0;
-    for (const auto &joint : joints_deg) params.start_posture_rad[joint.first] = joint.second * std::acos(-1.0) / 180.0;
+    for (const auto &joint : joints_deg)
+      params.start_posture_rad[joint.first] = joint.second * std::acos(-1.0) / 180.0;
   }
   void mode_of_all(std::int32_t mode) {
     for (std::int32_t &m : inputs.drive_mode) m = mode;
@@ -86,7 +88,8 @@ inline Momentum momentum(const State &s) {
                        i[4] * w.x + i[5] * w.y + i[2] * w.z};
     const Vec3 p = HOAP2_LINK[link].mass_kg * vec(s.body[link].com_vel_W_m_s);
     m.linear_W_Ns = m.linear_W_Ns + p;
-    m.angular_com_W_Nms = m.angular_com_W_Nms + axes * spin + cross(vec(s.body[link].com_pos_W_m) - com_W_m, p);
+    m.angular_com_W_Nms =
+        m.angular_com_W_Nms + axes * spin + cross(vec(s.body[link].com_pos_W_m) - com_W_m, p);
   }
   return m;
 }

@@ -128,7 +128,8 @@ TEST(Drive, AccelerationAtThePeakIsPeakOverInertia) {
   rig.start();
   rig.inputs.q_ref_rad[kHand] += 0.8;
   rig.step(2);
-  EXPECT_NEAR(HOAP2_JOINT[kHand].torque_peak_Nm / hand_inertia_kgm2() * 0.002, rig.out().true_qd_rad_s[kHand], 0.01);
+  EXPECT_NEAR(HOAP2_JOINT[kHand].torque_peak_Nm / hand_inertia_kgm2() * 0.002, rig.out().true_qd_rad_s[kHand],
+              0.01);
 }
 
 TEST(Drive, PositionLoopKeepsTheVelocityLimit) {
@@ -194,10 +195,12 @@ TEST(Drive, ComplianceDeflectsByTorqueOverStiffnessUnseenByTheEncoder) {
   const hoap2_plant_outputs_t out = rig.out();
   for (const int j : {HOAP2_J_R_HIP_ROLL, HOAP2_J_L_HIP_ROLL, HOAP2_J_R_ANKLE_ROLL, HOAP2_J_L_ANKLE_ROLL}) {
     EXPECT_NEAR(out.true_tau_Nm[j] / 80.0, out.q_enc_rad[j] - out.true_q_rad[j], 2e-6) << "joint " << j;
-    EXPECT_NEAR(rig.inputs.q_ref_rad[j] - out.true_tau_Nm[j] / rig.inputs.kp_Nm_rad[j], out.q_enc_rad[j], 2e-6);
+    EXPECT_NEAR(rig.inputs.q_ref_rad[j] - out.true_tau_Nm[j] / rig.inputs.kp_Nm_rad[j], out.q_enc_rad[j],
+                2e-6);
   }
   EXPECT_GT(std::fabs(out.q_enc_rad[HOAP2_J_R_HIP_ROLL] - out.true_q_rad[HOAP2_J_R_HIP_ROLL]), 1e-4);
-  EXPECT_EQ(out.q_enc_rad[HOAP2_J_R_KNEE], out.true_q_rad[HOAP2_J_R_KNEE]) << "only roll joints are compliant";
+  EXPECT_EQ(out.q_enc_rad[HOAP2_J_R_KNEE], out.true_q_rad[HOAP2_J_R_KNEE])
+      << "only roll joints are compliant";
   EXPECT_GT(out.true_chest_rpy_rad[0], -0.1);
   EXPECT_NEAR(kMg_N, out.true_foot_force_W_N[0][2] + out.true_foot_force_W_N[1][2], 1e-3 * kMg_N);
 }
@@ -211,8 +214,8 @@ TEST(Drive, CompliantJointRingsAtItsEigenfrequency) {
   rig.start();
   const int j = HOAP2_J_R_ANKLE_ROLL;
   const hoap2_link_data_t &foot = HOAP2_LINK[HOAP2_L_R_FOOT];
-  const double link_I = foot.inertia_C_kgm2[0] +
-                        foot.mass_kg * (foot.com_L_m[1] * foot.com_L_m[1] + foot.com_L_m[2] * foot.com_L_m[2]);
+  const double link_I = foot.inertia_C_kgm2[0] + foot.mass_kg * (foot.com_L_m[1] * foot.com_L_m[1] +
+                                                                 foot.com_L_m[2] * foot.com_L_m[2]);
   State s = rig.state();
   s.drive[j].rotor_q_rad += 0.01;
   ASSERT_EQ(0, rig.restore(s));

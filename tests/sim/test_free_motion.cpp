@@ -36,7 +36,8 @@ TEST_P(FreeFall, KeepsBothMomenta) {
   set_tumbling(&rig, static_cast<std::uint64_t>(GetParam()));
   const Momentum before = momentum(rig.state());
   double fastest_joint_rad_s = 0.0;
-  for (const double rate : rig.out().true_qd_rad_s) fastest_joint_rad_s = std::fmax(fastest_joint_rad_s, std::fabs(rate));
+  for (const double rate : rig.out().true_qd_rad_s)
+    fastest_joint_rad_s = std::fmax(fastest_joint_rad_s, std::fabs(rate));
   EXPECT_GT(fastest_joint_rad_s, 0.5) << "the joints must move for this to mean anything";
   rig.step(2000);
   const Momentum after = momentum(rig.state());
@@ -44,7 +45,8 @@ TEST_P(FreeFall, KeepsBothMomenta) {
   EXPECT_NEAR(-kMg_N * 2.0, gained.z, 1e-4 * kMg_N * 2.0);
   EXPECT_NEAR(0.0, gained.x, 1e-4 * norm(before.linear_W_Ns));
   EXPECT_NEAR(0.0, gained.y, 1e-4 * norm(before.linear_W_Ns));
-  const double turned = norm(after.angular_com_W_Nms - before.angular_com_W_Nms) / norm(before.angular_com_W_Nms);
+  const double turned =
+      norm(after.angular_com_W_Nms - before.angular_com_W_Nms) / norm(before.angular_com_W_Nms);
   RecordProperty("angular_momentum_error", std::to_string(turned));
   EXPECT_LT(turned, 1e-4);
 }
@@ -114,7 +116,8 @@ TEST(FreeMotion, APushTurnsAboutTheComByItsLever) {
   rig.params.push_point_L_m[0][2] = 0.12;
   rig.params.push_duration_s[0] = 0.004;
   rig.start();
-  const Vec3 lever = point_W_m(rig.state(), HOAP2_L_CHEST, Vec3{0.0, 0.0, 0.12}) - vec(rig.out().true_com_W_m);
+  const Vec3 lever =
+      point_W_m(rig.state(), HOAP2_L_CHEST, Vec3{0.0, 0.0, 0.12}) - vec(rig.out().true_com_W_m);
   rig.step(10);
   const Vec3 expected = cross(lever, Vec3{0.04, 0.0, 0.0});
   const Vec3 actual = momentum(rig.state()).angular_com_W_Nms;
@@ -140,7 +143,8 @@ TEST(FreeMotion, StopsHoldTheJoints) {
   rig.step(1500);
   const hoap2_plant_outputs_t out = rig.out();
   EXPECT_NEAR(HOAP2_JOINT[HOAP2_J_R_KNEE].limit_hard_rad[0], out.true_q_rad[HOAP2_J_R_KNEE], 0.003);
-  EXPECT_NEAR(HOAP2_JOINT[HOAP2_J_L_ANKLE_ROLL].limit_hard_rad[1], out.true_q_rad[HOAP2_J_L_ANKLE_ROLL], 0.003);
+  EXPECT_NEAR(HOAP2_JOINT[HOAP2_J_L_ANKLE_ROLL].limit_hard_rad[1], out.true_q_rad[HOAP2_J_L_ANKLE_ROLL],
+              0.003);
 }
 
 }  // namespace

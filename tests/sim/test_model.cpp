@@ -14,7 +14,8 @@ Vec3 com_from_table_m(const double q_rad[HOAP2_JOINTS]) {
   Vec3 sum;
   for (const int j : HOAP2_TREE_ORDER) {
     const hoap2_joint_data_t &joint = HOAP2_JOINT[j];
-    origin[joint.child_link] = origin[joint.parent_link] + axes[joint.parent_link] * vec(joint.origin_parent_m);
+    origin[joint.child_link] =
+        origin[joint.parent_link] + axes[joint.parent_link] * vec(joint.origin_parent_m);
     axes[joint.child_link] = axes[joint.parent_link] * rotation(joint.axis, q_rad[j]);
   }
   double mass_kg = 0.0;
@@ -55,10 +56,17 @@ TEST(Model, ComOfThreePosturesAgreesWithTheSheetAndTheTable) {
   const Case cases[] = {
       {{}, {0.010084, 0.000086, 0.276624}},
       {{{HOAP2_J_R_SHOULDER_PITCH, 90.0}, {HOAP2_J_L_SHOULDER_PITCH, 90.0}}, {-0.004206, 0.000086, 0.26717}},
-      {{{HOAP2_J_R_HIP_PITCH, -30.0}, {HOAP2_J_R_KNEE, 60.0}, {HOAP2_J_R_ANKLE_PITCH, -30.0},
-        {HOAP2_J_R_SHOULDER_PITCH, 100.0}, {HOAP2_J_R_ELBOW, -30.0}, {HOAP2_J_L_HIP_PITCH, -30.0},
-        {HOAP2_J_L_KNEE, 60.0}, {HOAP2_J_L_ANKLE_PITCH, -30.0}, {HOAP2_J_L_SHOULDER_PITCH, 100.0},
-        {HOAP2_J_L_ELBOW, -30.0}}, {0.001472, 0.000086, 0.24605}}};
+      {{{HOAP2_J_R_HIP_PITCH, -30.0},
+        {HOAP2_J_R_KNEE, 60.0},
+        {HOAP2_J_R_ANKLE_PITCH, -30.0},
+        {HOAP2_J_R_SHOULDER_PITCH, 100.0},
+        {HOAP2_J_R_ELBOW, -30.0},
+        {HOAP2_J_L_HIP_PITCH, -30.0},
+        {HOAP2_J_L_KNEE, 60.0},
+        {HOAP2_J_L_ANKLE_PITCH, -30.0},
+        {HOAP2_J_L_SHOULDER_PITCH, 100.0},
+        {HOAP2_J_L_ELBOW, -30.0}},
+       {0.001472, 0.000086, 0.24605}}};
   for (const Case &c : cases) {
     Rig rig;
     rig.posture(c.joints_deg);
@@ -66,14 +74,19 @@ TEST(Model, ComOfThreePosturesAgreesWithTheSheetAndTheTable) {
     const hoap2_plant_outputs_t out = rig.out();
     expect_near(c.com_m, out.true_com_W_m, 1e-6);
     expect_near(com_from_table_m(rig.params.start_posture_rad), out.true_com_W_m, 1e-9);
-    for (int j = 0; j < HOAP2_JOINTS; ++j) EXPECT_NEAR(rig.params.start_posture_rad[j], out.true_q_rad[j], 1e-12);
+    for (int j = 0; j < HOAP2_JOINTS; ++j)
+      EXPECT_NEAR(rig.params.start_posture_rad[j], out.true_q_rad[j], 1e-12);
   }
 }
 
 TEST(Model, LeaningTrunkStillHasFlatSoles) {
   Rig rig;  // legs that sum to -2 degrees: the trunk leans forward by 2 degrees
-  rig.posture({{HOAP2_J_R_HIP_PITCH, -20.0}, {HOAP2_J_R_KNEE, 40.0}, {HOAP2_J_R_ANKLE_PITCH, -22.0},
-               {HOAP2_J_L_HIP_PITCH, -20.0}, {HOAP2_J_L_KNEE, 40.0}, {HOAP2_J_L_ANKLE_PITCH, -22.0}});
+  rig.posture({{HOAP2_J_R_HIP_PITCH, -20.0},
+               {HOAP2_J_R_KNEE, 40.0},
+               {HOAP2_J_R_ANKLE_PITCH, -22.0},
+               {HOAP2_J_L_HIP_PITCH, -20.0},
+               {HOAP2_J_L_KNEE, 40.0},
+               {HOAP2_J_L_ANKLE_PITCH, -22.0}});
   rig.start();
   EXPECT_NEAR(2.0 * std::acos(-1.0) / 180.0, rig.out().true_chest_rpy_rad[1], 1e-9);
   EXPECT_NEAR(0.224824, rig.out().true_base_pos_W_m[2], 1e-6);
@@ -89,7 +102,8 @@ TEST(Model, ChestShiftMovesTheComByItsShareOfTheMass) {
   shifted.start();
   const double share = HOAP2_LINK[HOAP2_L_CHEST].mass_kg / HOAP2_TOTAL_MASS_KG;
   const double lean_rad = plain.out().true_chest_rpy_rad[1];
-  EXPECT_NEAR(0.003 * share * std::cos(lean_rad), shifted.out().true_com_W_m[0] - plain.out().true_com_W_m[0], 1e-9);
+  EXPECT_NEAR(0.003 * share * std::cos(lean_rad), shifted.out().true_com_W_m[0] - plain.out().true_com_W_m[0],
+              1e-9);
   EXPECT_NEAR(-0.002 * share, shifted.out().true_com_W_m[1] - plain.out().true_com_W_m[1], 1e-9);
   // and the standing robot's CoP follows it
   plain.step(1500);

@@ -28,7 +28,8 @@ void lively(Rig *rig) {
 void swing(Rig *rig, int tick) {
   const double t = kTick_s * tick;
   const double *const q0 = rig->params.start_posture_rad;
-  rig->inputs.q_ref_rad[HOAP2_J_R_SHOULDER_PITCH] = q0[HOAP2_J_R_SHOULDER_PITCH] - 0.4 * (1.0 - std::cos(7.0 * t));
+  rig->inputs.q_ref_rad[HOAP2_J_R_SHOULDER_PITCH] =
+      q0[HOAP2_J_R_SHOULDER_PITCH] - 0.4 * (1.0 - std::cos(7.0 * t));
   rig->inputs.q_ref_rad[HOAP2_J_L_HIP_YAW] = q0[HOAP2_J_L_HIP_YAW] + 0.05 * std::sin(9.0 * t);
   rig->inputs.q_ref_rad[HOAP2_J_WAIST_PITCH] = q0[HOAP2_J_WAIST_PITCH] + 0.03 * (1.0 - std::cos(11.0 * t));
 }
@@ -93,7 +94,8 @@ TEST(StateBlock, SeedChangesTheNoiseOnly) {
   b.start();
   a.step(20);
   b.step(20);
-  EXPECT_NE(a.out().accel_S_m_s2[0] + a.out().cell_force_N[1], b.out().accel_S_m_s2[0] + b.out().cell_force_N[1]);
+  EXPECT_NE(a.out().accel_S_m_s2[0] + a.out().cell_force_N[1],
+            b.out().accel_S_m_s2[0] + b.out().cell_force_N[1]);
   EXPECT_EQ(a.out().true_com_W_m[2], b.out().true_com_W_m[2]);
 }
 
