@@ -46,7 +46,7 @@ VIEWS = {
     "side": View(math.radians(-90), math.radians(6)),  # from the right: the robot walks from left to right
     "front": View(0.0, math.radians(6)),
     "back": View(math.radians(155), math.radians(13)),
-    "top": View(math.radians(-90), math.radians(80), 1.6),
+    "top": View(math.radians(-90), math.radians(86), 1.6),
 }
 
 
@@ -207,7 +207,9 @@ def _encoder(path: Path, size: tuple[int, int], fps: float, errors) -> subproces
         "-an", "-c:v", "libx264", "-preset", "veryfast", "-crf", "23", "-pix_fmt", "yuv420p",
         "-movflags", "+faststart", str(path),
     ]  # fmt: skip
-    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=errors)
+    # A session of its own: Ctrl-C is for us, the encoder ends when its input does.
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=errors,
+                            start_new_session=True)  # fmt: skip
 
 
 def _feed(run: Recording, rows: list[int], size: tuple[int, int], view: str, samples: int, out,
