@@ -137,12 +137,11 @@ class FmuInstance:
         self._now, self._size = ctypes.c_double(), ctypes.c_double()
         self._do_step = getattr(self._library, f"{prefix}DoStep")
         if self.version == 2:
-            self._step_arguments = (self._handle, self._now, self._size, ctypes.c_int(1))
+            self._step_rest = (ctypes.c_int(1),)
         else:
-            flags = [ctypes.c_bool() for _ in range(3)]
-            self._step_results = (*flags, ctypes.c_double())
-            self._step_arguments = (self._handle, self._now, self._size, ctypes.c_bool(True),
-                                    *[ctypes.byref(r) for r in self._step_results])
+            self._step_results = (*[ctypes.c_bool() for _ in range(3)], ctypes.c_double())
+            self._step_rest = (ctypes.c_bool(True), *[ctypes.byref(r) for r in self._step_results])
+        self._step_arguments = (self._handle, self._now, self._size, *self._step_rest)
 
     def _bind(self, prefix: str, names: Mapping[str, str], group: str, parts: Mapping) -> list[tuple]:
         """(function, arguments) of each call that moves something."""
@@ -283,6 +282,10 @@ class FmuInstance:
         if self._do_step(*self._step_arguments) > OK_OR_WARNING:
             self._refused("DoStep", seen)
         self.tick += tick_count
+
+    def step_arguments(self, start_s: float, size_s: float) -> tuple:
+        """Arguments of call("DoStep", ...) for any start and size, as tests of refusals need them."""
+        return ctypes.c_double(start_s), ctypes.c_double(size_s), *self._step_rest
 
     def terminate(self) -> None:
         """End the simulation and free everything."""
