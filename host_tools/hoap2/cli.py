@@ -55,9 +55,11 @@ def _run_module(name: str, arguments: list[str]) -> int:
     if app is None:
         app = typer.Typer(add_completion=False)
         app.command(context_settings=getattr(module, "CONTEXT_SETTINGS", {}))(module.command)
+    for registered in (app.info, *app.registered_commands):
+        settings = registered.context_settings if isinstance(registered.context_settings, dict) else {}
+        registered.context_settings = {**settings, "help_option_names": ["-h", "--help"]}
     for registered in app.registered_commands:
         registered.callback = _returning_exit_code(registered.callback)
-        registered.context_settings = {**(registered.context_settings or {}), "help_option_names": ["-h", "--help"]}
     try:
         app(args=arguments, prog_name=f"hoap2 {name}")
     except SystemExit as end:
