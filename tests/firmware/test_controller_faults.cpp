@@ -1,0 +1,167 @@
+// Bad inputs: a defined safe response and a fault bit, never a reference that is not a number.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <limits>
+
+#include "ideal_robot.hpp"
+
+namespace {
+
+using namespace hoap2_tests;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+// All real inputs lie in front of the integer ones.
+constexpr size_t kRealInputs = offsetof(hoap2_inputs_t, sensor_tick) / sizeof(double);
+constexpr size_t kRealOutputs = offsetof(hoap2_outputs_t, drive_mode) / sizeof(double);
+
+double& input(hoap2_inputs_t& in, size_t index) { return reinterpret_cast<double*>(&in)[index]; }
+
+void expect_finite(const hoap2_outputs_t& out) {
+  const double* values = reinterpret_cast<const double*>(&out);
+  for (size_t i = 0; i < kRealOutputs; ++i) ASSERT_TRUE(std::isfinite(values[i])) << "output " << i;
+}
+
+hoap2_params_t short_walk() {
+  hoap2_params_t params = default_params();
+  params.steps_forward = 4;
+  params.steps_in_place = 2;
+  params.calibrate_s = 0.2;
+  params.start_up_s = 0.3;
+  return params;
+}
+
+// Runs on with the inputs spoiled by `spoil`, until the safe stop; checks every tick.
+template <typename Spoil>
+void expect_safe_stop(Loop& loop, int32_t fault, Spoil spoil) {
+  bool crouched = false;
+  for (int k = 0; k < 6000 && loop.out.mode != HOAP2_MODE_SAFE; ++k) {
+    spoil(loop.in);
+    double last_rad[HOAP2_JOINTS];
+    std::copy(loop.out.q_ref_rad, loop.out.q_ref_rad + HOAP2_JOINTS, last_rad);
+    loop.tick();
+    expect_finite(loop.out);
+    crouched = crouched || loop.out.mode == HOAP2_MODE_CROUCH;
+    for (int j = 0; j < HOAP2_JOINTS; ++j) {
+      ASSERT_LE(std::fabs(loop.out.q_ref_rad[j] - last_rad[j]),
+                HOAP2_JOINT[j].velocity_limit_rad_s * kTick * (1 + 1e-9));
+    }
+  }
+  EXPECT_EQ(loop.out.mode, HOAP2_MODE_SAFE);
+  EXPECT_TRUE(loop.out.fault & fault) << loop.out.fault;
+  EXPECT_TRUE(crouched);
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    EXPECT_NEAR(loop.out.q_ref_rad[j], loop.state.params.crouch_posture_rad[j], 0.01) << "joint " << j;
+  }
+}
+
+class BadAtTick : public testing::TestWithParam<int> {};
+
+TEST_P(BadAtTick, NotANumberInAnyInputLeadsToTheSafeStop) {
+  Loop start(short_walk());
+  while (start.out.tick < GetParam()) start.tick();
+  for (size_t index = 0; index < kRealInputs; ++index) {
+    Loop loop = start;
+    expect_safe_stop(loop, HOAP2_FAULT_BAD_INPUT, [index](hoap2_inputs_t& in) { input(in, index) = kNaN; });
+    if (HasFailure()) FAIL() << "input " << index;
+  }
+}
+
+TEST_P(BadAtTick, StaleFramesLeadToTheSafeStop) {
+  Loop loop(short_walk());
+  while (loop.out.tick < GetParam()) loop.tick();
+  const int32_t frozen = loop.in.sensor_tick;
+  expect_safe_stop(loop, HOAP2_FAULT_STALE_INPUT, [frozen](hoap2_inputs_t& in) { in.sensor_tick = frozen; });
+}
+
+// first tick, start-up, calibration, shift, single support, settled stance
+INSTANTIATE_TEST_SUITE_P(Modes, BadAtTick, testing::Values(0, 100, 400, 700, 1100, 4500));
+
+TEST(ControllerFaults, InfinitiesAndAbsurdValuesAreBadToo) {
+  Loop start(short_walk());
+  while (start.out.tick < 1100) start.tick();
+  for (double value : {kInf, -kInf, 1e300, -1e12}) {
+    for (size_t index : {size_t{0}, size_t{24}, size_t{25}, size_t{28}, size_t{31}, kRealInputs - 1}) {
+      Loop loop = start;
+      expect_safe_stop(loop, HOAP2_FAULT_BAD_INPUT, [=](hoap2_inputs_t& in) { input(in, index) = value; });
+    }
+  }
+}
+
+TEST(ControllerFaults, AFewBadFramesAreBridged) {
+  const hoap2_params_t params = short_walk();
+  Loop loop(params);
+  for (int k = 0; k < tick_limit(params) && !loop.finished(); ++k) {
+    if (k % 50 < params.stale_limit_ticks) input(loop.in, static_cast<size_t>(k) % kRealInputs) = kNaN;
+    loop.tick();
+    expect_finite(loop.out);
+  }
+  EXPECT_EQ(loop.out.fault, 0);
+  EXPECT_EQ(loop.out.walk_done, 1);
+  EXPECT_EQ(loop.out.steps_done, 6);
+}
+
+TEST(ControllerFaults, AFaultIsNeverForgotten) {
+  Loop loop(short_walk());
+  while (loop.out.tick < 1100) loop.tick();
+  for (int k = 0; k < 20; ++k) {
+    loop.in.gyro_S_rad_s[1] = kNaN;
+    loop.tick();
+  }
+  for (int k = 0; k < 6000; ++k) loop.tick();  // good again
+  EXPECT_TRUE(loop.out.fault & HOAP2_FAULT_BAD_INPUT);
+  EXPECT_EQ(loop.out.mode, HOAP2_MODE_SAFE);
+  EXPECT_EQ(loop.out.walk_done, 0);
+  EXPECT_LT(loop.out.steps_done, 6);
+}
+
+TEST(ControllerFaults, AFaultInMidStepLandsTheFootBeforeTheCrouch) {
+  Loop loop(short_walk());
+  for (int k = 0; k < 3000 && loop.out.phase != HOAP2_PHASE_SINGLE_SUPPORT; ++k) loop.tick();
+  ASSERT_EQ(loop.out.phase, HOAP2_PHASE_SINGLE_SUPPORT);
+  for (int k = 0; k < 100; ++k) loop.tick();
+  while (loop.out.mode != HOAP2_MODE_CROUCH) {
+    loop.in.accel_S_m_s2[0] = kNaN;
+    loop.tick();
+    ASSERT_LT(loop.out.tick, 6000);
+  }
+  EXPECT_EQ(loop.out.foot_ref_W_m[0][2], 0.0);
+  EXPECT_EQ(loop.out.foot_ref_W_m[1][2], 0.0);
+}
+
+void expect_no_walk(const hoap2_params_t& params, int32_t fault) {
+  Loop loop(params);
+  EXPECT_TRUE(loop.init_fault & fault) << loop.init_fault;
+  for (int k = 0; k < 3000; ++k) {
+    loop.tick();
+    ASSERT_EQ(loop.out.mode, HOAP2_MODE_SAFE);
+    ASSERT_EQ(loop.out.phase, HOAP2_PHASE_STAND);
+    ASSERT_EQ(loop.out.steps_done, 0);
+    expect_finite(loop.out);
+  }
+  EXPECT_TRUE(loop.out.fault & fault);
+}
+
+TEST(ControllerFaults, AFootprintOutOfReachIsRefusedBeforeTheWalk) {
+  hoap2_params_t params = default_params();
+  params.step_length_m = 0.08;
+  params.step_time_s = 2.0;
+  params.hip_height_m = 0.23;  // nearly straight legs: nothing left for a long step
+  expect_no_walk(params, HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH);
+  params = default_params();
+  params.step_width_m = 0.068;
+  params.step_turn_rad = -0.2;  // the soles would meet
+  params.step_time_s = 2.0;
+  expect_no_walk(params, HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH);
+}
+
+TEST(ControllerFaults, AFasterSwingThanTheDrivesIsRefusedBeforeTheWalk) {
+  hoap2_params_t params = default_params();
+  params.step_time_s = 0.25;
+  params.lift_m = 0.04;
+  params.ds_fraction = 0.2;
+  expect_no_walk(params, HOAP2_FAULT_JOINT_TOO_FAST);
+}
+
+}  // namespace
