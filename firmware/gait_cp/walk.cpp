@@ -67,9 +67,12 @@ void planned_cop(const hoap2_params_t& params, hoap2_gait_t& gait) {
 }
 
 // One tick of the pendulum: (7.13) and (7.10), composed tick by tick (exact for a CoP held over the tick).
-void pendulum_tick(hoap2_gait_t& gait) {
+// Under feedback the robot is where it is sensed to be, deviation away from the reference, and so is the
+// pendulum that falls away from the CoP: the reference moves as if the CoP were shifted back by as much.
+void pendulum_tick(bool controlled, hoap2_gait_t& gait) {
   for (int i = 0; i < 2; ++i) {
-    pendulum_after(gait.cop_m[i], gait.omega_1_s, gait.cosh_tick, gait.sinh_tick, gait.com_m[i], gait.com_rate_m_s[i]);
+    const double cop_m = controlled ? gait.cop_m[i] - gait.cp_deviation_m[i] : gait.cop_m[i];
+    pendulum_after(cop_m, gait.omega_1_s, gait.cosh_tick, gait.sinh_tick, gait.com_m[i], gait.com_rate_m_s[i]);
     gait.cp_ref_m[i] = capture_point_after(gait.cp_ref_m[i], gait.cop_step_m[i], gait.exp_tick);
   }
 }
@@ -183,14 +186,16 @@ int32_t hoap2_gait_check_reach(const hoap2_params_t* params, const hoap2_gait_t*
   trial.feedback = 0;
   hoap2_gait_start(params, &trial);
   const int32_t ticks = hoap2::step_ticks(params->start_shift_s) + hoap2::kReachSteps * hoap2::step_ticks(params->step_time_s);
+  int32_t fault = 0;
   for (int32_t tick = 0; tick < ticks && trial.walking; ++tick) {
     double q_last_rad[HOAP2_SIZE_JOINT];
     memcpy(q_last_rad, trial.q_ref_rad, sizeof q_last_rad);
     hoap2_gait_step(params, &blind, &trial);
-    const int32_t fault = hoap2::trial_fault(trial, q_last_rad);
-    if (fault) return fault;
+    fault |= hoap2::trial_fault(trial, q_last_rad);
+    // A knee that nears the straight leg is too fast before it is out of reach: the cause is told alone.
+    if (fault & HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
   }
-  return 0;
+  return fault;
 }
 
 void hoap2_gait_start(const hoap2_params_t* params, hoap2_gait_t* gait) {
@@ -204,11 +209,12 @@ void hoap2_gait_start(const hoap2_params_t* params, hoap2_gait_t* gait) {
 void hoap2_gait_step(const hoap2_params_t* params, const hoap2_sense_t* sense, hoap2_gait_t* gait) {
   if (gait->feedback) hoap2::track_capture_point(*params, *sense, *gait);
   if (gait->walking) {
-    if (params->cp_controller == HOAP2_CP_CONTROLLER_PLAN || !gait->feedback)
-      hoap2::planned_cop(*params, *gait);
-    else
+    const bool controlled = params->cp_controller != HOAP2_CP_CONTROLLER_PLAN && gait->feedback;
+    if (controlled)
       hoap2::controlled_cop(*params, *gait);
-    hoap2::pendulum_tick(*gait);
+    else
+      hoap2::planned_cop(*params, *gait);
+    hoap2::pendulum_tick(controlled, *gait);
     ++gait->step_tick;
     if (gait->step_tick >= gait->step_ticks) hoap2::next_event(*params, *gait);
   }
