@@ -7,12 +7,13 @@ import subprocess
 import sys
 import time
 import xml.etree.ElementTree as ElementTree
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from hoap2.paths import ROOT
 
 LOG = ROOT / "build" / "test.log"
+SHOWN_FAILURES = 20  # of each ring, in the summary
 
 
 @dataclass
@@ -25,6 +26,7 @@ class Ring:
     skipped: int = 0
     seconds: float = 0.0
     note: str = ""
+    failures: list[str] = field(default_factory=list)
 
     @property
     def ok(self) -> bool:
@@ -76,6 +78,9 @@ def _count(junit: Path, ring: Ring) -> None:
         ring.failed += failed
         ring.skipped += skipped
         ring.passed += total - failed - skipped
+        for case in suite.iter("testcase"):
+            if case.find("failure") is not None or case.find("error") is not None:
+                ring.failures.append(f"{case.get('classname')}::{case.get('name')}".replace("\n", " ")[:120])
 
 
 def run_ctest(preset: str, quick: bool) -> Ring:
@@ -128,6 +133,7 @@ def summarise(rings: list[Ring]) -> str:
     """The last lines of a test run."""
     lines = [f"{ring.name:<20} {ring.passed:5d} passed {ring.failed:4d} failed {ring.skipped:4d} skipped "
              f"{ring.seconds:7.1f} s  {ring.note}".rstrip() for ring in rings]
+    lines += [f"failed: {name}" for ring in rings for name in ring.failures[:SHOWN_FAILURES]]
     passed, failed, skipped = (sum(getattr(r, name) for r in rings) for name in ("passed", "failed", "skipped"))
     lines.append(f"tests: {passed} passed, {failed} failed, {skipped} skipped")
     return "\n".join(lines)
