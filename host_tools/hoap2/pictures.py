@@ -1,7 +1,6 @@
 """Pictures of runs: a frame of any moment, a strip of moments, the video.
 
-    write_frame("out/floor-walk/first", 3.2, Path("frame.png"), view="side")
-    write_video("out/floor-walk/first", Path("video.mp4"))
+Both take a run folder or a Recording: write_frame("out/floor-walk/first", 3.2, "frame.png", view="side").
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ from hoap2.renderer import Renderer, Scene
 
 __all__ = ["VIEWS", "Renderer", "Scene", "parse_size", "scene_from_run", "strip", "write_frame", "write_video"]
 
-DISTANCE_M = 1.45
+DISTANCE_M = 1.3
 FOLLOW_S = 0.6  # width of the smoothing of the camera's way
 TARGET_OVER_HIPS_M = 0.015
 SUPERSAMPLING_UP_TO_PX = 2048

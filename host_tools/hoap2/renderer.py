@@ -6,6 +6,7 @@ import ctypes
 import os
 from functools import lru_cache
 from pathlib import Path
+from typing import Self
 
 import numpy as np
 
@@ -151,7 +152,7 @@ class Renderer:
             self._lib.hoap2_render_destroy(self._handle)
             self._handle = None
 
-    def __enter__(self) -> Renderer:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_) -> None:

@@ -13,17 +13,25 @@
 namespace hoap2 {
 
 Context::Context() {
-  const int attributes[] = {OSMESA_FORMAT,  OSMESA_RGBA,         OSMESA_DEPTH_BITS,            24,
-                            OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3,
-                            OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_DEPTH_BITS,
+                            24,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            3,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            3,
+                            0};
   handle_ = OSMesaCreateContextAttribs(attributes, nullptr);
   if (handle_ == nullptr) {
     throw std::runtime_error("OSMesa gives no OpenGL 3.3 core context (is libosmesa6 installed?)");
   }
   try {
     acquire();
-#define HOAP2_GL_LOAD(type, name)                                              \
-  gl_.name = reinterpret_cast<type>(OSMesaGetProcAddress("gl" #name));         \
+#define HOAP2_GL_LOAD(type, name)                                      \
+  gl_.name = reinterpret_cast<type>(OSMesaGetProcAddress("gl" #name)); \
   if (gl_.name == nullptr) throw std::runtime_error("OSMesa lacks gl" #name);
     HOAP2_GL_FUNCTIONS(HOAP2_GL_LOAD)
 #undef HOAP2_GL_LOAD
@@ -66,14 +74,15 @@ GLuint compile(const Gl &gl, const std::string &name, GLenum stage, const std::s
 
 }  // namespace
 
-GLuint build_program(const Gl &gl, const std::string &name, const std::string &vertex, const std::string &fragment,
-                     const char *const *attributes, int attribute_count) {
+GLuint build_program(const Gl &gl, const std::string &name, const std::string &vertex,
+                     const std::string &fragment, const char *const *attributes, int attribute_count) {
   const GLuint vertex_shader = compile(gl, name + " (vertex)", GL_VERTEX_SHADER, vertex);
   const GLuint fragment_shader = compile(gl, name + " (fragment)", GL_FRAGMENT_SHADER, fragment);
   const GLuint program = gl.CreateProgram();
   gl.AttachShader(program, vertex_shader);
   gl.AttachShader(program, fragment_shader);
-  for (int i = 0; i < attribute_count; ++i) gl.BindAttribLocation(program, static_cast<GLuint>(i), attributes[i]);
+  for (int i = 0; i < attribute_count; ++i)
+    gl.BindAttribLocation(program, static_cast<GLuint>(i), attributes[i]);
   gl.LinkProgram(program);
   gl.DeleteShader(vertex_shader);
   gl.DeleteShader(fragment_shader);

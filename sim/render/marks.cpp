@@ -55,7 +55,8 @@ void footprint(Marks &marks, const Plane &plane, Colour colour, float alpha) {
   constexpr int kArc = 4;
   constexpr float kCorner = 0.012F;
   constexpr float kOutline = 0.0024F;
-  const auto toe = static_cast<float>(HOAP2_ANKLE_TO_TOE_M), heel = static_cast<float>(-HOAP2_ANKLE_TO_HEEL_M);
+  const auto toe = static_cast<float>(HOAP2_ANKLE_TO_TOE_M),
+             heel = static_cast<float>(-HOAP2_ANKLE_TO_HEEL_M);
   const auto side = static_cast<float>(HOAP2_SOLE_HALF_WIDTH_M);
   struct Corner {
     float u, v, start;
@@ -95,7 +96,8 @@ void com_ball(Marks &marks, Vec3 centre, float radius_m) {
     for (int column = 0; column < kAround; ++column) {
       const bool bright = ((column * 4 / kAround) + (row * 2 / kRows)) % 2 == 0;
       const Colour colour = bright ? kCom : kComDark;
-      const Vec3 p[] = {point(row, column), point(row + 1, column), point(row + 1, column + 1), point(row, column + 1)};
+      const Vec3 p[] = {point(row, column), point(row + 1, column), point(row + 1, column + 1),
+                        point(row, column + 1)};
       for (const auto &corner : {std::array<int, 3>{0, 1, 2}, std::array<int, 3>{0, 2, 3}}) {
         for (const int i : corner) marks.push_back({centre + p[i] * radius_m, p[i], colour});
       }
@@ -123,7 +125,8 @@ void tube(Marks &marks, Vec3 from, Vec3 to, float radius_from_m, float radius_to
 
 Vec3 local(const double *p_W_m, const std::array<double, 3> &origin, int count) {
   const double z = count > 2 ? p_W_m[2] - origin[2] : 0.0;
-  return {static_cast<float>(p_W_m[0] - origin[0]), static_cast<float>(p_W_m[1] - origin[1]), static_cast<float>(z)};
+  return {static_cast<float>(p_W_m[0] - origin[0]), static_cast<float>(p_W_m[1] - origin[1]),
+          static_cast<float>(z)};
 }
 
 bool finite(const double *values, int count) {
@@ -144,12 +147,14 @@ Ground::Ground(const hoap2_scene_t &scene, const std::array<double, 3> &origin_W
   const auto about_x = static_cast<float>(scene.floor_tilt_rad[0]);
   const auto about_y = static_cast<float>(scene.floor_tilt_rad[1]);
   // R_x(a) R_y(b) e_z
-  normal_ = {std::sin(about_y), -std::sin(about_x) * std::cos(about_y), std::cos(about_x) * std::cos(about_y)};
+  normal_ = {std::sin(about_y), -std::sin(about_x) * std::cos(about_y),
+             std::cos(about_x) * std::cos(about_y)};
   for (int i = 0; i < scene.block_count; ++i) {
     const double *size = scene.block_size_m[i];
-    blocks_.push_back({local(scene.block_centre_W_m[i], origin_W_m, 3),
-                       Vec3{static_cast<float>(size[0]), static_cast<float>(size[1]), static_cast<float>(size[2])} * 0.5F,
-                       static_cast<float>(scene.block_yaw_W_rad[i])});
+    blocks_.push_back(
+        {local(scene.block_centre_W_m[i], origin_W_m, 3),
+         Vec3{static_cast<float>(size[0]), static_cast<float>(size[1]), static_cast<float>(size[2])} * 0.5F,
+         static_cast<float>(scene.block_yaw_W_rad[i])});
   }
 }
 
@@ -169,13 +174,15 @@ Vec3 Ground::point(float x, float y) const {
   return p;
 }
 
-Marks footprint_marks(const hoap2_scene_t &scene, const Ground &ground, const std::array<double, 3> &origin_W_m) {
+Marks footprint_marks(const hoap2_scene_t &scene, const Ground &ground,
+                      const std::array<double, 3> &origin_W_m) {
   Marks marks;
   if ((scene.show & HOAP2_SHOW_FOOTPRINTS) == 0) return marks;
   for (int i = 0; i < scene.footprint_count; ++i) {
     const double *print_W = scene.footprint_W_m_rad[i];
     if (!finite(print_W, 3)) continue;
-    const Plane plane = plane_on(ground, local(print_W, origin_W_m, 2), static_cast<float>(print_W[2]), 0.0003F);
+    const Plane plane =
+        plane_on(ground, local(print_W, origin_W_m, 2), static_cast<float>(print_W[2]), 0.0003F);
     const int age = scene.footprint_count - 1 - i;
     const float alpha = std::max(0.45F, 1.0F - 0.06F * static_cast<float>(age));
     footprint(marks, plane, scene.footprint_left[i] != 0 ? kLeft : kRight, alpha);
@@ -214,7 +221,8 @@ Marks air_marks(const hoap2_scene_t &scene, const Ground &ground, const std::arr
   }
   const double *f = scene.push_force_W_N;
   const double force_N = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
-  if ((scene.show & HOAP2_SHOW_PUSH) != 0 && std::isfinite(force_N) && force_N > 0.05 && finite(scene.push_point_W_m, 3)) {
+  if ((scene.show & HOAP2_SHOW_PUSH) != 0 && std::isfinite(force_N) && force_N > 0.05 &&
+      finite(scene.push_point_W_m, 3)) {
     const Vec3 along = unit({static_cast<float>(f[0]), static_cast<float>(f[1]), static_cast<float>(f[2])});
     // 6 mm a newton, between 60 and 250 mm
     const float length_m = std::clamp(0.006F * static_cast<float>(force_N), 0.06F, 0.25F);

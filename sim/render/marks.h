@@ -44,7 +44,8 @@ class Ground {
 };
 
 // Footprints, oldest first.
-Marks footprint_marks(const hoap2_scene_t &scene, const Ground &ground, const std::array<double, 3> &origin_W_m);
+Marks footprint_marks(const hoap2_scene_t &scene, const Ground &ground,
+                      const std::array<double, 3> &origin_W_m);
 // Points on the ground: below the CoM, CoP, capture point. They also shine faintly through the feet.
 Marks point_marks(const hoap2_scene_t &scene, const Ground &ground, const std::array<double, 3> &origin_W_m);
 // Marks in the air; they also shine faintly through the robot.

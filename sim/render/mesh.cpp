@@ -116,9 +116,9 @@ void add_cylinder(Mesh &mesh, const Placement &at, float radius, float half_leng
   const float b = std::min({bevel, radius, half_length});
   const float s = std::sqrt(0.5F);
   // Cap, bevel and wall keep their own normals, so that the rim catches light.
-  const Ring rings[] = {{radius - b, half_length, 0, 1},  {radius - b, half_length, s, s},
-                        {radius, half_length - b, s, s},  {radius, half_length - b, 1, 0},
-                        {radius, b - half_length, 1, 0},  {radius, b - half_length, s, -s},
+  const Ring rings[] = {{radius - b, half_length, 0, 1},   {radius - b, half_length, s, s},
+                        {radius, half_length - b, s, s},   {radius, half_length - b, 1, 0},
+                        {radius, b - half_length, 1, 0},   {radius, b - half_length, s, -s},
                         {radius - b, -half_length, s, -s}, {radius - b, -half_length, 0, -1}};
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   const auto n = static_cast<uint32_t>(sides);

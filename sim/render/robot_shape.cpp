@@ -57,7 +57,8 @@ class Builder {
     if (axis == Axis::y) at.turn_rad = {kQuarter, 0.0F, 0.0F};
     add_cylinder(mesh, at, radius, half_length, 0.12F * radius, fine_ ? sides : 10);
   }
-  void detail_rod(int link, const Material &material, Axis axis, Vec3 centre, float radius, float half_length) {
+  void detail_rod(int link, const Material &material, Axis axis, Vec3 centre, float radius,
+                  float half_length) {
     if (fine_) rod(link, material, axis, centre, radius, half_length, 16);
   }
 
@@ -128,7 +129,8 @@ void add_head(Builder &b) {
   // visor: stands out of the skull by a millimetre or two at the front only
   Builder::Form visor;
   visor.cells = 4;
-  b.box(head, kGlass, {0.0105F, 0.0F, 0.002F}, {0.0275F, 0.0315F, 0.0165F}, {0.0275F, 0.0290F, 0.0120F}, visor);
+  b.box(head, kGlass, {0.0105F, 0.0F, 0.002F}, {0.0275F, 0.0315F, 0.0165F}, {0.0275F, 0.0290F, 0.0120F},
+        visor);
   for (const float y : {-0.0130F, 0.0130F}) {
     b.detail_box(head, kLens, {0.0350F, y, 0.002F}, {0.0032F, 0.0046F, 0.0046F}, 0.0046F);
   }
@@ -164,7 +166,8 @@ void add_arm(Builder &b, const Arm &arm) {
   sleeve.taper_x = -0.14F;
   sleeve.taper_y = -0.14F;
   sleeve.pitch_rad = kQuarter;  // the form's z runs along the forearm
-  b.box(arm.fore, kWhite, {0.044F, 0.0F, -0.0035F}, {0.0175F, 0.0205F, 0.0400F}, {0.0150F, 0.0165F, 0.014F}, sleeve);
+  b.box(arm.fore, kWhite, {0.044F, 0.0F, -0.0035F}, {0.0175F, 0.0205F, 0.0400F}, {0.0150F, 0.0165F, 0.014F},
+        sleeve);
   b.rod(arm.fore, kDark, Axis::y, {0.0F, 0.0F, 0.0F}, 0.0115F, 0.0200F);
   b.rod(arm.fore, kDark, Axis::x, {0.088F, 0.0F, -0.0035F}, 0.0115F, 0.0075F);
 
@@ -191,7 +194,8 @@ void add_leg(Builder &b, const Leg &leg) {
   thigh.taper_x = 0.14F;
   thigh.taper_y = 0.04F;
   b.rod(leg.thigh, kDark, Axis::y, {0.0F, -0.002F, 0.0F}, 0.0172F, 0.0330F);
-  b.box(leg.thigh, kWhite, {0.0085F, -0.002F, -0.0465F}, {0.0225F, 0.0305F, 0.0400F}, {0.0165F, 0.0175F, 0.0185F}, thigh);
+  b.box(leg.thigh, kWhite, {0.0085F, -0.002F, -0.0465F}, {0.0225F, 0.0305F, 0.0400F},
+        {0.0165F, 0.0175F, 0.0185F}, thigh);
   b.detail_box(leg.thigh, kNavy, {0.0310F, -0.002F, -0.046F}, {0.0022F, 0.0075F, 0.0200F}, 0.002F);
   b.rod(leg.thigh, kDark, Axis::y, {0.0F, -0.002F, -0.1F}, 0.0172F, 0.0335F);
   b.detail_rod(leg.thigh, kGrey, Axis::y, {0.0F, -0.002F, -0.1F}, 0.0090F, 0.0350F);
@@ -203,8 +207,10 @@ void add_leg(Builder &b, const Leg &leg) {
   shank.taper_y = 0.10F;
   Builder::Form knee;
   knee.cells = 3;
-  b.box(leg.shank, kNavy, {0.0165F, -0.002F, -0.004F}, {0.0135F, 0.0220F, 0.0160F}, {0.0125F, 0.0140F, 0.0130F}, knee);
-  b.box(leg.shank, kWhite, {0.0105F, -0.002F, -0.0515F}, {0.0225F, 0.0275F, 0.0380F}, {0.0165F, 0.0165F, 0.0170F}, shank);
+  b.box(leg.shank, kNavy, {0.0165F, -0.002F, -0.004F}, {0.0135F, 0.0220F, 0.0160F},
+        {0.0125F, 0.0140F, 0.0130F}, knee);
+  b.box(leg.shank, kWhite, {0.0105F, -0.002F, -0.0515F}, {0.0225F, 0.0275F, 0.0380F},
+        {0.0165F, 0.0165F, 0.0170F}, shank);
   b.rod(leg.shank, kDark, Axis::y, {0.0F, -0.002F, -0.0985F}, 0.0155F, 0.0325F);
 
   b.rod(leg.ankle, kGrey, Axis::y, {0.0F, -0.002F, 0.0F}, 0.0095F, 0.0345F);
@@ -217,13 +223,15 @@ void add_leg(Builder &b, const Leg &leg) {
   const auto sole_z = static_cast<float>(HOAP2_SOLE_BELOW_ANKLE_M);
   Builder::Form flat;
   flat.cells = 3;
-  b.box(leg.foot, kRubber, {sole_mid_x, 0.0F, -sole_z + 0.0030F}, {sole_x, sole_y, 0.0030F}, {0.012F, 0.012F, 0.0008F}, flat);
+  b.box(leg.foot, kRubber, {sole_mid_x, 0.0F, -sole_z + 0.0030F}, {sole_x, sole_y, 0.0030F},
+        {0.012F, 0.012F, 0.0008F}, flat);
   Builder::Form shoe;
   shoe.cells = 3;
   shoe.taper_x = -0.10F;
   shoe.taper_y = -0.07F;
   shoe.shear_x = -0.003F;
-  b.box(leg.foot, kWhite, {sole_mid_x, 0.0F, -0.0255F}, {0.0440F, 0.0285F, 0.0078F}, {0.016F, 0.015F, 0.0070F}, shoe);
+  b.box(leg.foot, kWhite, {sole_mid_x, 0.0F, -0.0255F}, {0.0440F, 0.0285F, 0.0078F},
+        {0.016F, 0.015F, 0.0070F}, shoe);
   b.detail_box(leg.foot, kNavy, {0.0400F, 0.0F, -0.0200F}, {0.0075F, 0.0150F, 0.0030F}, 0.0025F);
   for (const float x : {-0.0245F, 0.0330F}) {
     b.box(leg.foot, kGrey, {x, 0.0F, -0.0085F}, {0.0045F, 0.0140F, 0.0185F}, {0.003F, 0.009F, 0.009F}, {});
@@ -241,9 +249,9 @@ Mesh robot_mesh(Detail detail) {
   const Arm left_arm = {HOAP2_L_L_SHOULDER_PITCH_LINK, HOAP2_L_L_SHOULDER_ROLL_LINK, HOAP2_L_L_UPPER_ARM,
                         HOAP2_L_L_FOREARM, HOAP2_L_L_HAND};
   const Leg right_leg = {HOAP2_L_R_HIP_YAW_LINK, HOAP2_L_R_HIP_ROLL_LINK, HOAP2_L_R_THIGH,
-                         HOAP2_L_R_SHANK, HOAP2_L_R_ANKLE_LINK, HOAP2_L_R_FOOT};
+                         HOAP2_L_R_SHANK,        HOAP2_L_R_ANKLE_LINK,    HOAP2_L_R_FOOT};
   const Leg left_leg = {HOAP2_L_L_HIP_YAW_LINK, HOAP2_L_L_HIP_ROLL_LINK, HOAP2_L_L_THIGH,
-                        HOAP2_L_L_SHANK, HOAP2_L_L_ANKLE_LINK, HOAP2_L_L_FOOT};
+                        HOAP2_L_L_SHANK,        HOAP2_L_L_ANKLE_LINK,    HOAP2_L_L_FOOT};
   add_arm(b, right_arm);
   add_leg(b, right_leg);
   b.side(-1.0F);

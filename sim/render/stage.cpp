@@ -23,7 +23,8 @@ void upload(const Gl &gl, GLenum target, GLuint buffer, const std::vector<T> &da
 
 }  // namespace
 
-Stage::Stage(int width, int height, int samples_wanted) : width_px(width), height_px(height), samples(samples_wanted) {
+Stage::Stage(int width, int height, int samples_wanted)
+    : width_px(width), height_px(height), samples(samples_wanted) {
   const Current current(context);
   try {
     make_programs();
@@ -44,16 +45,19 @@ void Stage::make_programs() {
   const Gl &gl = context.gl();
   const char *solid_inputs[] = {"a_pos", "a_normal", "a_albedo", "a_gloss_link"};
   const char *mark_inputs[] = {"a_pos", "a_normal", "a_colour"};
-  solid.id = build_program(gl, "solid", kHeader + kSolidVertex, kHeader + kLight + kSolidFragment, solid_inputs, 4);
+  solid.id =
+      build_program(gl, "solid", kHeader + kSolidVertex, kHeader + kLight + kSolidFragment, solid_inputs, 4);
   shadow.id = build_program(gl, "shadow", kHeader + kSolidVertex, kHeader + kShadowFragment, solid_inputs, 4);
-  floor.id = build_program(gl, "floor", kHeader + kFloorVertex, kHeader + kLight + kFloorFragment, solid_inputs, 1);
+  floor.id =
+      build_program(gl, "floor", kHeader + kFloorVertex, kHeader + kLight + kFloorFragment, solid_inputs, 1);
   sky.id = build_program(gl, "sky", kHeader + kSkyVertex, kHeader + kLight + kSkyFragment, solid_inputs, 1);
   mark.id = build_program(gl, "mark", kHeader + kMarkVertex, kHeader + kMarkFragment, mark_inputs, 3);
 }
 
 void Stage::make_buffers() {
   for (Batch *batch : {&robot, &robot_shadow, &blocks}) make_batch(*batch, true);
-  for (Batch *batch : {&floor_quad, &sky_quad, &footprints, &marks_ground, &marks_air}) make_batch(*batch, false);
+  for (Batch *batch : {&floor_quad, &sky_quad, &footprints, &marks_ground, &marks_air})
+    make_batch(*batch, false);
   fill(robot, robot_mesh(Detail::picture));
   fill(robot_shadow, robot_mesh(Detail::shadow));
   fill(sky_quad, std::vector<Vec3>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
@@ -160,7 +164,8 @@ void Stage::destroy() {
   for (const Program *program : {&solid, &shadow, &floor, &sky, &mark}) {
     if (program->id != 0) gl.DeleteProgram(program->id);
   }
-  for (Batch *batch : {&robot, &robot_shadow, &blocks, &floor_quad, &sky_quad, &footprints, &marks_ground, &marks_air}) {
+  for (Batch *batch :
+       {&robot, &robot_shadow, &blocks, &floor_quad, &sky_quad, &footprints, &marks_ground, &marks_air}) {
     if (batch->array != 0) gl.DeleteVertexArrays(1, &batch->array);
     if (batch->vertices != 0) gl.DeleteBuffers(1, &batch->vertices);
     if (batch->indices != 0) gl.DeleteBuffers(1, &batch->indices);

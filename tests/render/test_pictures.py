@@ -12,10 +12,9 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 import pytest
-from PIL import Image
-
 from hoap2 import parameters, pictures, recording, renderer
 from hoap2.errors import UserError
+from PIL import Image
 
 TICKS = 600
 STEP_TICKS = 150

@@ -246,7 +246,8 @@ TEST(Render, FarFromTheOriginNothingChanges) {
   const Picture a = camera.draw(near), b = camera.draw(far);
   int changed = 0;
   for (int row = 0; row < kHeight; ++row) {
-    for (int column = 0; column < kWidth; ++column) changed += differ(a.at(column, row), b.at(column, row), 2) ? 1 : 0;
+    for (int column = 0; column < kWidth; ++column)
+      changed += differ(a.at(column, row), b.at(column, row), 2) ? 1 : 0;
   }
   EXPECT_LT(changed, 20);
 }
@@ -264,13 +265,15 @@ TEST(Render, BlocksAndTiltAreSeen) {
   for (const hoap2_scene_t &other : {with_block, tilted}) {
     const Picture picture = camera.draw(other);
     int changed = 0;
-    for (size_t i = 0; i < picture.rgb.size(); ++i) changed += std::abs(picture.rgb[i] - flat.rgb[i]) > 4 ? 1 : 0;
+    for (size_t i = 0; i < picture.rgb.size(); ++i)
+      changed += std::abs(picture.rgb[i] - flat.rgb[i]) > 4 ? 1 : 0;
     EXPECT_GT(changed, 3000);
   }
 }
 
 TEST(Render, SizesOutOfRangeAreRefusedWithAReason) {
-  const int sizes[][3] = {{0, 100, 1}, {100, -5, 1}, {1000000, 100, 1}, {100, 5000, 4}, {8, 8, 1}, {100, 100, 3}};
+  const int sizes[][3] = {{0, 100, 1},    {100, -5, 1}, {1000000, 100, 1},
+                          {100, 5000, 4}, {8, 8, 1},    {100, 100, 3}};
   for (const auto &size : sizes) {
     EXPECT_EQ(hoap2_render_create(size[0], size[1], size[2]), nullptr);
     EXPECT_FALSE(std::string(hoap2_render_error(nullptr)).empty());

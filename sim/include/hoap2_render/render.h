@@ -47,8 +47,9 @@ typedef struct {
   double com_W_m[3];     /* markers with a value that is not finite are left out */
   double cop_W_m[2];
   double cp_W_m[2];
-  double footprint_W_m_rad[HOAP2_RENDER_MAX_FOOTPRINTS][3]; /* sole point under the ankle x, y; yaw; oldest first */
-  double floor_tilt_rad[2]; /* about x, then about y of the tilted floor, through floor_origin_W_m */
+  double footprint_W_m_rad[HOAP2_RENDER_MAX_FOOTPRINTS]
+                          [3]; /* sole point under the ankle x, y; yaw; oldest first */
+  double floor_tilt_rad[2];    /* about x, then about y of the tilted floor, through floor_origin_W_m */
   double floor_origin_W_m[3];
   double block_centre_W_m[HOAP2_RENDER_MAX_BLOCKS][3];
   double block_size_m[HOAP2_RENDER_MAX_BLOCKS][3];
@@ -75,8 +76,8 @@ HOAP2_RENDER_API int hoap2_render_draw(hoap2_render_t *render, const hoap2_scene
 
 /* Where a point appears: column, row from the top left corner (in pixels), distance along
  * the line of sight (m). Returns 0, or non-zero when it is behind the camera. */
-HOAP2_RENDER_API int hoap2_render_project(const hoap2_render_t *render, const hoap2_scene_t *scene, const double point_W_m[3],
-                         double column_row_depth[3]);
+HOAP2_RENDER_API int hoap2_render_project(const hoap2_render_t *render, const hoap2_scene_t *scene,
+                                          const double point_W_m[3], double column_row_depth[3]);
 
 /* Pose of a link (index in hoap2.json) as it is drawn: rows of [R | p], world frame. */
 HOAP2_RENDER_API int hoap2_render_link_pose(const hoap2_scene_t *scene, int32_t link, double pose_W[12]);
