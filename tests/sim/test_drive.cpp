@@ -205,6 +205,34 @@ TEST(Drive, ComplianceDeflectsByTorqueOverStiffnessUnseenByTheEncoder) {
   EXPECT_NEAR(kMg_N, out.true_foot_force_W_N[0][2] + out.true_foot_force_W_N[1][2], 1e-3 * kMg_N);
 }
 
+// The eliminated rotor against its two laws: the link's torque is the spring's, and the
+// rotor turns by what the drive gives more than the spring takes.
+TEST(Drive, CompliantRowObeysSpringAndRotor) {
+  Rig rig;
+  rig.float_free();
+  rig.params.roll_stiffness_Nm_rad = 2000.0;
+  rig.params.roll_damping_Nms_rad = 20.0;
+  rig.start();
+  const int j = HOAP2_J_L_HIP_ROLL;
+  State s = rig.state();
+  s.drive[j].rotor_q_rad += 4e-4;
+  s.drive[j].rotor_qd_rad_s = 0.03;
+  rig.inputs.q_ref_rad[j] += 1e-3;
+  const double link_q = joint_angle_rad(s, j), inertia = HOAP2_JOINT[j].armature_kgm2;
+  for (const double link_qd_next : {-0.2, 0.0, 0.05}) {
+    Drive drive;
+    drive.begin(s, rig.inputs, j);
+    const MotorRow row = drive.row();
+    const double torque_Nm = row.stiffness_Nms_rad * (row.target_rad_s - link_qd_next);
+    const DriveState next = drive.finish(link_q + kTick_s * link_qd_next, link_qd_next);
+    const double spring_Nm = 2000.0 * (next.rotor_q_rad - link_q - kTick_s * link_qd_next) +
+                             20.0 * (next.rotor_qd_rad_s - link_qd_next);
+    EXPECT_NEAR(spring_Nm, torque_Nm, 1e-10);
+    EXPECT_NEAR(inertia * (next.rotor_qd_rad_s - 0.03) / kTick_s, next.tau_Nm - torque_Nm, 1e-10);
+    EXPECT_GT(std::fabs(torque_Nm), 0.1);
+  }
+}
+
 // Rotor and link on a spring: the difference oscillates at sqrt(k / I_reduced).
 TEST(Drive, CompliantJointRingsAtItsEigenfrequency) {
   Rig rig;
