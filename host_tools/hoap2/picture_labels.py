@@ -97,7 +97,9 @@ def caption(rgb: np.ndarray, text: str) -> None:
 
 
 def legend(rgb: np.ndarray, with_push: bool = False) -> None:
-    """The meaning of the marks, in the bottom left corner, in place."""
+    """The meaning of the marks, in the bottom left corner, in place; left out where it does not fit."""
     size = text_size_px(rgb)
     panel = _legend(size, with_push)
+    if panel[0].shape[1] + size > rgb.shape[1]:
+        return
     _paste(rgb, panel, round(0.8 * size), rgb.shape[0] - panel[0].shape[0] - round(0.8 * size))

@@ -16,7 +16,7 @@ def _folder(run: str) -> Path:
     path = Path(run)
     if path.is_dir():
         return path
-    runs = [folder for folder in (Path("out") / run).glob("*/") if (folder / "signals.parquet").exists()]
+    runs = [folder for folder in (Path("out") / run).glob("[!.]*/") if (folder / "signals.parquet").exists()]
     if runs and "/" not in run:
         return max(runs, key=lambda folder: (folder / "signals.parquet").stat().st_mtime)
     if run in scenario.names():
