@@ -15,11 +15,11 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from hoap2 import metric_names, products, runfolder, runner, scenario, seeds, statistics
+from hoap2 import bounds, metric_names, products, runfolder, runner, scenario, seeds, statistics, tables_shown
 from hoap2.errors import UserError
 from hoap2.master import StopRequest
 from hoap2.progress import PartProgress
-from hoap2.tables_shown import MISSED, OK, number
+from hoap2.tables_shown import MISSED, OK, in_unit
 
 POLL_S = 0.2
 
@@ -141,11 +141,11 @@ def _document(loaded: scenario.Scenario, seed_list: list[int], summaries: dict, 
     """The content of study.json."""
     rows = [summaries[seed] for seed in seed_list if seed in summaries]
     complete = [row for row in rows if not row["interrupted"]]
-    bounds = {}
+    judged = {}
     for name, bound in loaded.bounds.items():
         entries = [row["bounds"][name] for row in complete]
         values = [e["value"] for e in entries if e["value"] is not None]
-        bounds[name] = {
+        judged[name] = {
             "least": min(values, default=None), "largest": max(values, default=None),
             "min": bound.low, "max": bound.high, "met": _fraction([e["ok"] for e in entries]),
         }  # fmt: skip
@@ -156,7 +156,7 @@ def _document(loaded: scenario.Scenario, seed_list: list[int], summaries: dict, 
         "interrupted": interrupted,
         "runs_ok": _fraction([row["ok"] for row in complete] + [False] * len(errors)),
         "runs_fallen": _fraction([bool(row.get("fell")) for row in complete]),
-        "bounds": bounds,
+        "bounds": judged,
         "errors": {str(seed): text for seed, text in errors.items()},
         "runs": rows,
     }
@@ -193,22 +193,24 @@ def _write(folder: Path, document: dict) -> None:
 
 
 def _show(document: dict, console: Console) -> None:
-    names = list(document["bounds"])
+    if not console.is_terminal:
+        console = Console(highlight=False, width=160)
+    names = [name for name in document["bounds"] if name not in bounds.ALWAYS]  # those show in the last column
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
-    table.add_column("seed", justify="right")
+    table.add_column("seed", justify="right", no_wrap=True)
     for name in names:
-        unit = metric_names.NAMES[name][0]
-        table.add_column(f"{name.replace('.', ' ').replace('_', ' ')}\n{unit}", justify="right", overflow="fold")
-    table.add_column("")
+        unit = tables_shown.UNITS.get(metric_names.NAMES[name][0], (metric_names.NAMES[name][0], 1.0))[0]
+        head = name.replace(".", "_").removesuffix(f"_{metric_names.NAMES[name][0]}").replace("_", " ")
+        table.add_column(f"{head}\n{unit}", justify="right")
+    table.add_column("", no_wrap=True)
     for row in document["runs"]:
-        cells = [_cell(row["bounds"][name]) for name in names]
-        table.add_row(str(row["seed"]), *cells, "interrupted" if row["interrupted"] else OK if row["ok"] else MISSED)
+        table.add_row(str(row["seed"]), *[_cell(name, row["bounds"][name]) for name in names], _state(row))
     for seed, text in document["errors"].items():
         table.add_row(seed, *[""] * len(names), f"[red]{text.splitlines()[0][:60]}[/]")
     table.add_section()
-    for label, key in (("least", "least"), ("largest", "largest"), ("min", "min"), ("max", "max")):
-        cells = [number(document["bounds"][name][key], 3) for name in names]
-        table.add_row(label, *cells, "", style="dim" if key in ("min", "max") else "bold")
+    for label in ("least", "largest", "min", "max"):
+        cells = [in_unit(name, document["bounds"][name][label]) for name in names]
+        table.add_row(label, *cells, "", style="dim" if label in ("min", "max") else "bold")
     console.print(table)
     for label, key in (("ok", "runs_ok"), ("fallen", "runs_fallen")):
         share = document[key]
@@ -217,6 +219,16 @@ def _show(document: dict, console: Console) -> None:
     console.print(f"study folder: {document['folder']}", soft_wrap=True)
 
 
-def _cell(entry: dict) -> str:
-    text = number(entry["value"], 3)
+def _state(row: dict) -> str:
+    if row["interrupted"]:
+        return "interrupted"
+    if row["error"]:
+        return f"[red]{row['error'].splitlines()[0][:60]}[/]"
+    if row.get("fell"):
+        return f"fell {row['fall_direction']}, step {row['fall_step']}, {row['fall_time_s']:.1f} s"
+    return ", ".join(row["faults"]) or (OK if row["ok"] else MISSED)
+
+
+def _cell(name: str, entry: dict) -> str:
+    text = in_unit(name, entry["value"])
     return text if entry["ok"] else f"[bold red]{text}[/]"

@@ -10,6 +10,17 @@ from hoap2 import metric_names
 OK, MISSED = "[green]ok[/]", "[bold red]missed[/]"
 
 
+UNITS = {"m": ("mm", 1e3), "s": ("ms", 1e3), "m/s": ("mm/s", 1e3)}  # handier on a screen
+
+
+def in_unit(name: str, value: float | None) -> str:
+    """A metric in its handy unit, for a column of a table."""
+    if value is None:
+        return "-"
+    text = f"{value * UNITS.get(metric_names.NAMES[name][0], ('', 1.0))[1]:.2f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
 def number(value, digits: int = 4) -> str:
     """A number for reading: short, a dash when there is none."""
     if value is None:
