@@ -6,6 +6,10 @@
 
 #include "ideal_robot.hpp"
 
+extern "C" {
+#include "core/outputs.h"
+}
+
 namespace {
 
 using namespace hoap2_tests;
@@ -42,7 +46,12 @@ void expect_safe_stop(Loop& loop, int32_t fault, Spoil spoil) {
     std::copy(loop.out.q_ref_rad, loop.out.q_ref_rad + HOAP2_JOINTS, last_rad);
     loop.tick();
     expect_finite(loop.out);
-    crouched = crouched || loop.out.mode == HOAP2_MODE_CROUCH;
+    if (loop.out.mode == HOAP2_MODE_CROUCH) {
+      crouched = true;
+      for (int j = 0; j < HOAP2_JOINTS; ++j) {  // from where the references were, gently
+        ASSERT_LT(std::fabs(loop.out.q_ref_rad[j] - last_rad[j]), 2.0 * kTick) << "joint " << j;
+      }
+    }
     for (int j = 0; j < HOAP2_JOINTS; ++j) {
       ASSERT_LE(std::fabs(loop.out.q_ref_rad[j] - last_rad[j]),
                 HOAP2_JOINT[j].velocity_limit_rad_s * kTick * (1 + 1e-9));
@@ -162,6 +171,35 @@ TEST(ControllerFaults, AFasterSwingThanTheDrivesIsRefusedBeforeTheWalk) {
   params.lift_m = 0.04;
   params.ds_fraction = 0.2;
   expect_no_walk(params, HOAP2_FAULT_JOINT_TOO_FAST);
+}
+
+TEST(ReferenceLimits, RatesAnglesAndNumbers) {
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    const hoap2_joint_data_t& joint = HOAP2_JOINT[j];
+    const double step_rad = joint.velocity_limit_rad_s * kTick;
+    const double middle_rad = 0.5 * (joint.limit_soft_rad[0] + joint.limit_soft_rad[1]);
+    double last_rad[HOAP2_JOINTS];
+    for (int i = 0; i < HOAP2_JOINTS; ++i) {
+      last_rad[i] = 0.5 * (HOAP2_JOINT[i].limit_soft_rad[0] + HOAP2_JOINT[i].limit_soft_rad[1]);
+    }
+    const auto limited = [&](double from_rad, double wanted_rad, bool met) {
+      double q_rad[HOAP2_JOINTS];
+      std::copy(last_rad, last_rad + HOAP2_JOINTS, q_rad);
+      last_rad[j] = from_rad;
+      q_rad[j] = wanted_rad;
+      EXPECT_EQ(hoap2_limit_references(last_rad, q_rad), met ? 1 : 0);
+      return q_rad[j];
+    };
+    EXPECT_EQ(limited(middle_rad, middle_rad + 0.5 * step_rad, false), middle_rad + 0.5 * step_rad);
+    EXPECT_NEAR(limited(middle_rad, middle_rad + 3.0 * step_rad, false), middle_rad + step_rad, 1e-15);
+    EXPECT_NEAR(limited(middle_rad, middle_rad - 3.0 * step_rad, false), middle_rad - step_rad, 1e-15);
+    EXPECT_EQ(limited(joint.limit_soft_rad[1], joint.limit_soft_rad[1] + 1e-4, true),
+              joint.limit_soft_rad[1]);
+    EXPECT_EQ(limited(joint.limit_soft_rad[0], joint.limit_soft_rad[0] - 1e-4, true),
+              joint.limit_soft_rad[0]);
+    EXPECT_EQ(limited(middle_rad, kNaN, false), middle_rad);
+    EXPECT_EQ(limited(middle_rad, kInf, false), middle_rad);
+  }
 }
 
 }  // namespace
