@@ -117,7 +117,7 @@ def execute(scenario: Scenario, products: Products, folder: RunFolder, console: 
         summary["notes"] = []
         pictures = _pictures(folder, outcome.log, video, console, quiet, stop, summary["notes"])
         summary["peak_memory_mb"] = peak_memory_mb()
-        if outcome.log.count > 1:
+        if outcome.log.count:
             _report(folder, scenario, outcome.log, summary, pictures)
         folder.json("summary.json", summary)
         path = folder.finish()

@@ -13,6 +13,7 @@ import pyarrow.parquet
 from hoap2 import parameters
 from hoap2.errors import UserError
 
+ROW_GROUP = 20000  # ticks; bounds what writing takes beside the log
 PREFIX = {"controller": "c.", "plant": "p."}
 
 
@@ -42,13 +43,16 @@ def columns_of(product: str) -> list[Column]:
 
 
 class SignalLog:
-    """Preallocated rows; row k holds all outputs at tick k. `count` rows are filled."""
+    """Preallocated rows; row k holds all outputs at tick k. `count` rows are filled.
+
+    The arrays are not cleared: a row costs memory only once it is written.
+    """
 
     def __init__(self, columns: list[Column], capacity: int) -> None:
         self.reals = [c for c in columns if c.kind == "real"]
         self.ints = [c for c in columns if c.kind == "int"]
-        self.real = np.full((capacity, len(self.reals)), np.nan)
-        self.integer = np.full((capacity, len(self.ints)), 0, dtype=np.int32)
+        self.real = np.empty((capacity, len(self.reals)))
+        self.integer = np.empty((capacity, len(self.ints)), dtype=np.int32)
         self.count = 0
         self._index = {c.name: i for group in (self.reals, self.ints) for i, c in enumerate(group)}
         self._is_int = {c.name for c in self.ints}
@@ -81,13 +85,17 @@ class SignalLog:
     def write(self, path: Path) -> None:
         """One column a scalar signal, time first, the unit in each field's metadata."""
         fields = [pyarrow.field("t_s", pyarrow.float64(), metadata={"unit": "s"})]
-        arrays = [pyarrow.array(self.t_s)]
         for column in self.reals + self.ints:
             kind = pyarrow.float64() if column.kind == "real" else pyarrow.int32()
             fields.append(pyarrow.field(column.name, kind, metadata={"unit": column.unit}))
-            arrays.append(pyarrow.array(np.ascontiguousarray(self.column(column.name))))
-        table = pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields))
-        pyarrow.parquet.write_table(table, path, compression="zstd", use_dictionary=False, row_group_size=1 << 20)
+        schema, t_s = pyarrow.schema(fields), self.t_s
+        with pyarrow.parquet.ParquetWriter(path, schema, compression="zstd", use_dictionary=False) as writer:
+            for first in range(0, max(1, self.count), ROW_GROUP):
+                rows = slice(first, min(first + ROW_GROUP, self.count))
+                arrays = [pyarrow.array(t_s[rows])]
+                for column in self.reals + self.ints:
+                    arrays.append(pyarrow.array(np.ascontiguousarray(self.column(column.name)[rows])))
+                writer.write_table(pyarrow.Table.from_arrays(arrays, schema=schema))
 
 
 def read(path: Path) -> SignalLog:

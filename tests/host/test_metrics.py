@@ -24,7 +24,7 @@ def log(walk) -> SignalLog:
     """A faultless walk: 36 steps of 0.4 s from 1.8 s on, feet moving as planned, standing still at the end."""
     log = SignalLog(columns_of("controller") + columns_of("plant"), TICKS)
     log.count = TICKS
-    log.real[:] = 0.0
+    log.real[:], log.integer[:] = 0.0, 0
     index = np.clip((np.arange(TICKS) - 1800) // 400 + 1, 0, 36)
     walking = (np.arange(TICKS) >= 1800) & (np.arange(TICKS) < 1800 + 36 * 400)
     enums = parameters.table().enums
@@ -176,6 +176,7 @@ def test_faults_are_named(log, walk):
 def test_a_run_cut_short_is_still_judged(walk):
     log = SignalLog(columns_of("controller") + columns_of("plant"), 10)
     log.count = 1
+    log.real[:], log.integer[:] = 0.0, 0
     result = metrics.compute(log, walk)
     assert result["steps_taken"] == 0 and not result["fell"]
 
