@@ -48,7 +48,9 @@ TEST_P(FreeFall, KeepsBothMomenta) {
   const double turned =
       norm(after.angular_com_W_Nms - before.angular_com_W_Nms) / norm(before.angular_com_W_Nms);
   RecordProperty("angular_momentum_error", std::to_string(turned));
-  EXPECT_LT(turned, 1e-4);
+  // 1e-4 is what is asked for. The plant's gyroscopic torque keeps it five times better, and worse is a
+  // fault.
+  EXPECT_LT(turned, 2e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, FreeFall, ::testing::Range(1, 9));
