@@ -100,7 +100,8 @@ def _stack(rows: int, height_in: float, columns: int = 1, share_y: bool = False)
 
 def _legend(axes) -> None:
     """Above the axes at the right, where it covers no curve."""
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=6, frameon=False, fontsize=8, borderaxespad=0.2)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=6, frameon=False, fontsize=8, borderaxespad=0.2,
+                labelcolor=INK)  # fmt: skip
 
 
 def _finish(run: Run, axes_list, bottom) -> None:
@@ -237,7 +238,7 @@ def joints(run: Run) -> Figure:
                 axes[row, column].plot(*thin(run.t, true, 350), color=color, linewidth=0.9, label="truth")
             if ref is not None:
                 axes[row, column].plot(*thin(run.t, ref, 350), label="reference", **REF | {"linewidth": 0.6})
-            axes[row, column].set_title(f"{name.replace('_', ' ')} (deg)", loc="left", fontsize=9)
+            axes[row, column].set_title(f"{name.replace('_', ' ')} (deg)", loc="left", fontsize=9, color=INK)
             axes[row, column].margins(x=0.0)
     _legend(axes[0, 0])
     for a in axes[-1]:
