@@ -4,12 +4,36 @@
 
 namespace hoap2 {
 
-double cop_for_ramp(double cp_des, double cp, double cop_from, double omega_1_s, double T_s, double ramp_s) {
-  const double growth = hoap2_exp(omega_1_s * T_s);
+namespace {
+
+// Share of the ramp's target in the capture point's final place: cp_des = ... + (1 + s) cop_to; s -> -e^(omega T)
+// for a ramp of no length.
+double ramp_gain(double omega_1_s, double T_s, double ramp_s) {
   const double growth_after = hoap2_exp(omega_1_s * (T_s - ramp_s));
   const double growth_ramp = hoap2_exp(omega_1_s * ramp_s);
-  const double s = growth_after * (1.0 - growth_ramp) / (omega_1_s * ramp_s);
-  return (cp_des - growth * (cp - cop_from) + s * cop_from) / (1.0 + s);
+  return growth_after * (1.0 - growth_ramp) / (omega_1_s * ramp_s);
+}
+
+}  // namespace
+
+double line_start_for_ramp(double cp, double cop_from, double omega_1_s, double T_s, double ramp_s) {
+  return cop_from - hoap2_exp(omega_1_s * T_s) * (cp - cop_from) / ramp_gain(omega_1_s, T_s, ramp_s);
+}
+
+double cop_for_ramp(double cp_des, double cp, double cop_from, double omega_1_s, double T_s, double ramp_s) {
+  const double start = line_start_for_ramp(cp, cop_from, omega_1_s, T_s, ramp_s);
+  return start + (cp_des - start) / (1.0 + ramp_gain(omega_1_s, T_s, ramp_s));
+}
+
+// (7.2) with a CoP of constant speed v has the solution e^(omega t) (cp - cop - v/omega) + cop + v t + v/omega.
+double capture_point_along_ramp(double cp, double cop_now, double cop_end, double omega_1_s, double ramp_left_s,
+                                double dT_s) {
+  if (!(ramp_left_s > 0.0)) return capture_point_after(cp, cop_end, hoap2_exp(omega_1_s * dT_s));
+  const double ramp_s = ramp_left_s < dT_s ? ramp_left_s : dT_s;
+  const double speed = (cop_end - cop_now) / ramp_left_s;
+  const double lead = speed / omega_1_s;
+  const double after_ramp = hoap2_exp(omega_1_s * ramp_s) * (cp - cop_now - lead) + cop_now + speed * ramp_s + lead;
+  return capture_point_after(after_ramp, cop_end, hoap2_exp(omega_1_s * (dT_s - ramp_s)));
 }
 
 }  // namespace hoap2

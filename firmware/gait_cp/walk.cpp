@@ -20,6 +20,8 @@ constexpr double kReachExcess_m = 2e-4;   // draw-back of a leg that counts as o
 constexpr double kSoleClearance_m = 2e-3; // least gap between the soles in a landing
 constexpr double kRateTolerance = 1.2;    // joint rate of the plan against the limit
 
+double clip(double value, double limit) { return value < -limit ? -limit : (value > limit ? limit : value); }
+
 double step_time_s(const hoap2_gait_t& gait) { return gait.step_tick * kTick_s; }
 
 // The capture point for the feedback laws: that of the CoM reference plus the low-passed deviation of the
@@ -29,9 +31,36 @@ double step_time_s(const hoap2_gait_t& gait) { return gait.step_tick * kTick_s; 
 void track_capture_point(const hoap2_params_t& params, const hoap2_sense_t& sense, hoap2_gait_t& gait) {
   for (int i = 0; i < 2; ++i) {
     const double reference_m = gait.com_m[i] + gait.tpcc_m[i] + (gait.com_rate_m_s[i] + gait.tpcc_rate_m_s[i]) / gait.omega_1_s;
-    const double raw_m = sense.cp_O_m[i] - reference_m;
+    const double raw_m = clip(sense.cp_O_m[i] - reference_m, params.cp_deviation_limit_m);
     gait.cp_deviation_m[i] += kTick_s / (params.cp_filter_s + kTick_s) * (raw_m - gait.cp_deviation_m[i]);
   }
+}
+
+// Share of the CoP ramp done after a time of the step; 1 without a ramp.
+double ramp_share(const hoap2_params_t& params, const hoap2_gait_t& gait, double time_s) {
+  if (params.cop_profile != HOAP2_COP_PROFILE_RAMP) return 1.0;
+  const double done = time_s / ramp_s(params, gait);
+  return done < 1.0 ? done : 1.0;
+}
+
+double ramped(const hoap2_gait_t& gait, int axis, double share) {
+  return gait.cop_from_m[axis] + share * (gait.cop_step_m[axis] - gait.cop_from_m[axis]);
+}
+
+// (7.10) after a time dT from now, with the ramp where there is one.
+double planned_capture_point(const hoap2_params_t& params, const hoap2_gait_t& gait, int axis, double dT_s) {
+  const double share = ramp_share(params, gait, step_time_s(gait));
+  const double left_s = share < 1.0 ? ramp_s(params, gait) - step_time_s(gait) : 0.0;
+  return capture_point_along_ramp(gait.cp_ref_m[axis], ramped(gait, axis, share), gait.cop_step_m[axis],
+                                  gait.omega_1_s, left_s, dT_s);
+}
+
+// Where the CoP may be: both soles in a double support without a swing foot and while a ramp leads from one
+// foot to the other, else the sole of the stance foot.
+SupportPolygon base_of_support(const hoap2_params_t& params, const hoap2_gait_t& gait) {
+  if (gait.swing_foot == 2 || ramp_share(params, gait, step_time_s(gait)) < 1.0)
+    return hull_of_soles(gait.foot[0], gait.foot[1], params.cop_margin_m);
+  return sole_polygon(gait.foot[1 - gait.swing_foot], params.cop_margin_m);
 }
 
 // (7.11): horizon to the end of the step, floored because the law is singular there.
@@ -47,33 +76,29 @@ void controlled_cop(const hoap2_params_t& params, hoap2_gait_t& gait) {
   double target[2];
   for (int i = 0; i < 2; ++i) {
     cp[i] = gait.com_m[i] + gait.com_rate_m_s[i] / gait.omega_1_s + gait.cp_deviation_m[i];
-    target[i] = cps ? gait.cp_eos_m[i] : capture_point_after(gait.cp_ref_m[i], gait.cop_step_m[i], growth);
+    target[i] = cps ? gait.cp_eos_m[i] : planned_capture_point(params, gait, i, horizon_s);
     cop[i] = cop_for_capture_point(target[i], cp[i], growth);
   }
-  const SupportPolygon polygon =
-      gait.swing_foot == 2 ? hull_of_soles(gait.foot[0], gait.foot[1], params.cop_margin_m)
-                           : sole_polygon(gait.foot[1 - gait.swing_foot], params.cop_margin_m);
+  const SupportPolygon polygon = base_of_support(params, gait);
   const Point2 inside = clamp_cop(polygon, {cop[0], cop[1]}, {cp[0], cp[1]}, {target[0], target[1]});
   gait.cop_m[0] = inside.x;
   gait.cop_m[1] = inside.y;
 }
 
-void planned_cop(const hoap2_params_t& params, hoap2_gait_t& gait) {
-  const bool ramp = params.cop_profile == HOAP2_COP_PROFILE_RAMP;
-  // the mean of the ramp over the tick to come
-  const double done = ramp ? (step_time_s(gait) + 0.5 * kTick_s) / ramp_s(params, gait) : 1.0;
-  const double share = done < 1.0 ? done : 1.0;
-  for (int i = 0; i < 2; ++i) gait.cop_m[i] = gait.cop_from_m[i] + share * (gait.cop_step_m[i] - gait.cop_from_m[i]);
+// The CoP of the plan over the tick to come: the mean of the ramp.
+void planned_cop(const hoap2_params_t& params, const hoap2_gait_t& gait, double cop_m[2]) {
+  const double share = ramp_share(params, gait, step_time_s(gait) + 0.5 * kTick_s);
+  for (int i = 0; i < 2; ++i) cop_m[i] = ramped(gait, i, share);
 }
 
 // One tick of the pendulum: (7.13) and (7.10), composed tick by tick (exact for a CoP held over the tick).
 // Under feedback the robot is where it is sensed to be, deviation away from the reference, and so is the
 // pendulum that falls away from the CoP: the reference moves as if the CoP were shifted back by as much.
-void pendulum_tick(bool controlled, hoap2_gait_t& gait) {
+void pendulum_tick(bool controlled, const double plan_cop_m[2], hoap2_gait_t& gait) {
   for (int i = 0; i < 2; ++i) {
     const double cop_m = controlled ? gait.cop_m[i] - gait.cp_deviation_m[i] : gait.cop_m[i];
     pendulum_after(cop_m, gait.omega_1_s, gait.cosh_tick, gait.sinh_tick, gait.com_m[i], gait.com_rate_m_s[i]);
-    gait.cp_ref_m[i] = capture_point_after(gait.cp_ref_m[i], gait.cop_step_m[i], gait.exp_tick);
+    gait.cp_ref_m[i] = capture_point_after(gait.cp_ref_m[i], plan_cop_m[i], gait.exp_tick);
   }
 }
 
@@ -210,11 +235,13 @@ void hoap2_gait_step(const hoap2_params_t* params, const hoap2_sense_t* sense, h
   if (gait->feedback) hoap2::track_capture_point(*params, *sense, *gait);
   if (gait->walking) {
     const bool controlled = params->cp_controller != HOAP2_CP_CONTROLLER_PLAN && gait->feedback;
+    double plan_cop_m[2];
+    hoap2::planned_cop(*params, *gait, plan_cop_m);
     if (controlled)
       hoap2::controlled_cop(*params, *gait);
     else
-      hoap2::planned_cop(*params, *gait);
-    hoap2::pendulum_tick(controlled, *gait);
+      memcpy(gait->cop_m, plan_cop_m, sizeof plan_cop_m);
+    hoap2::pendulum_tick(controlled, plan_cop_m, *gait);
     ++gait->step_tick;
     if (gait->step_tick >= gait->step_ticks) hoap2::next_event(*params, *gait);
   }

@@ -12,18 +12,23 @@ int other(int foot) { return 1 - foot; }
 
 // (7.8), (7.9) or its ramp form, and the clamp of 7.2.2 d.
 void plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, double duration_s, hoap2_gait_t& gait) {
+  const bool ramp = params.cop_profile == HOAP2_COP_PROFILE_RAMP;
   const double growth = hoap2_exp(gait.omega_1_s * duration_s);
   double cop[2];
+  double line_start[2];
   for (int i = 0; i < 2; ++i) {
     gait.cp_start_m[i] = gait.com_m[i] + gait.com_rate_m_s[i] / gait.omega_1_s;
     gait.cp_ref_m[i] = gait.cp_start_m[i];
     gait.cop_from_m[i] = gait.cop_m[i];
-    cop[i] = params.cop_profile == HOAP2_COP_PROFILE_RAMP
-                 ? cop_for_ramp(gait.cp_eos_m[i], gait.cp_start_m[i], gait.cop_from_m[i], gait.omega_1_s, duration_s,
-                                ramp_s(params, gait))
-                 : cop_for_capture_point(gait.cp_eos_m[i], gait.cp_start_m[i], growth);
+    line_start[i] = gait.cp_start_m[i];
+    cop[i] = cop_for_capture_point(gait.cp_eos_m[i], gait.cp_start_m[i], growth);
+    if (ramp) {
+      const double length_s = ramp_s(params, gait);
+      line_start[i] = line_start_for_ramp(gait.cp_start_m[i], gait.cop_m[i], gait.omega_1_s, duration_s, length_s);
+      cop[i] = cop_for_ramp(gait.cp_eos_m[i], gait.cp_start_m[i], gait.cop_m[i], gait.omega_1_s, duration_s, length_s);
+    }
   }
-  const Point2 inside = clamp_cop(polygon, {cop[0], cop[1]}, {gait.cp_start_m[0], gait.cp_start_m[1]},
+  const Point2 inside = clamp_cop(polygon, {cop[0], cop[1]}, {line_start[0], line_start[1]},
                                   {gait.cp_eos_m[0], gait.cp_eos_m[1]});
   gait.cop_step_m[0] = inside.x;
   gait.cop_step_m[1] = inside.y;

@@ -7,8 +7,8 @@
 #include "../product.h"
 #include "hoap2/generated/signals.h"
 
-#define HOAP2_FMU_TOKEN "{d73ab6a1-88f0-dc9c-28dc-0aa4c8e7d75c}"
-enum { HOAP2_FMU_FIELDS = 80, HOAP2_FMU_ELEMENTS = 383 };
+#define HOAP2_FMU_TOKEN "{7707f8d4-d0db-e45e-57a6-c9da3c6f2a3f}"
+enum { HOAP2_FMU_FIELDS = 81, HOAP2_FMU_ELEMENTS = 384 };
 
 /* name, group, kind, tunable, FMI 2 value reference of the first element, elements, offset, range */
 static const hoap2_fmu_field_t FIELDS[HOAP2_FMU_FIELDS] = {
@@ -69,29 +69,30 @@ static const hoap2_fmu_field_t FIELDS[HOAP2_FMU_FIELDS] = {
   {"cps_min_dt_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 286u, 1u, offsetof(hoap2_params_t, cps_min_dt_s), 0.01, 0.4},
   {"cpt_dt_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 287u, 1u, offsetof(hoap2_params_t, cpt_dt_s), 0.01, 0.4},
   {"cp_filter_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 288u, 1u, offsetof(hoap2_params_t, cp_filter_s), 0.0, 1.0},
-  {"cop_ramp_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 289u, 1u, offsetof(hoap2_params_t, cop_ramp_s), 0.01, 0.2},
-  {"tpcc_kp_1_s2", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 1, 290u, 1u, offsetof(hoap2_params_t, tpcc_kp_1_s2), 0.0, 100.0},
-  {"tpcc_kv_1_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 1, 291u, 1u, offsetof(hoap2_params_t, tpcc_kv_1_s), 0.0, 200.0},
-  {"tpcc_kx_1_s2", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 1, 292u, 1u, offsetof(hoap2_params_t, tpcc_kx_1_s2), 0.0, 1000.0},
-  {"tpcc_error_limit_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 293u, 1u, offsetof(hoap2_params_t, tpcc_error_limit_m), 0.0, 0.1},
-  {"tpcc_shift_limit_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 294u, 1u, offsetof(hoap2_params_t, tpcc_shift_limit_m), 0.0, 0.1},
-  {"tpcc_filter_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 295u, 1u, offsetof(hoap2_params_t, tpcc_filter_s), 0.0, 0.2},
-  {"attitude_tau_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 296u, 1u, offsetof(hoap2_params_t, attitude_tau_s), 0.2, 60.0},
-  {"com_rate_filter_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 297u, 1u, offsetof(hoap2_params_t, com_rate_filter_s), 0.001, 0.2},
-  {"contact_on_N", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 298u, 1u, offsetof(hoap2_params_t, contact_on_N), 0.5, 50.0},
-  {"contact_off_N", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 299u, 1u, offsetof(hoap2_params_t, contact_off_N), 0.1, 50.0},
-  {"hold_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 300u, 1u, offsetof(hoap2_params_t, hold_s), 0.0, 1.0},
-  {"crouch_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 301u, 1u, offsetof(hoap2_params_t, crouch_s), 0.3, 10.0},
-  {"crouch_posture_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 302u, 25u, offsetof(hoap2_params_t, crouch_posture_rad), -3.2, 3.2},
-  {"servo_kp_Nm_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 327u, 25u, offsetof(hoap2_params_t, servo_kp_Nm_rad), 0.0, 100000.0},
-  {"servo_kd_Nms_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 352u, 25u, offsetof(hoap2_params_t, servo_kd_Nms_rad), 0.0, 1000.0},
-  {"behaviour", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 377u, 1u, offsetof(hoap2_params_t, behaviour), 0.0, 1.0},
-  {"steps_forward", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 378u, 1u, offsetof(hoap2_params_t, steps_forward), 0.0, 1000.0},
-  {"steps_in_place", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 379u, 1u, offsetof(hoap2_params_t, steps_in_place), 0.0, 1000.0},
-  {"first_swing_foot", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 380u, 1u, offsetof(hoap2_params_t, first_swing_foot), 0.0, 1.0},
-  {"cp_controller", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 381u, 1u, offsetof(hoap2_params_t, cp_controller), 0.0, 2.0},
-  {"cop_profile", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 382u, 1u, offsetof(hoap2_params_t, cop_profile), 0.0, 1.0},
-  {"stale_limit_ticks", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 383u, 1u, offsetof(hoap2_params_t, stale_limit_ticks), 1.0, 100.0},
+  {"cp_deviation_limit_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 289u, 1u, offsetof(hoap2_params_t, cp_deviation_limit_m), 0.0, 0.1},
+  {"cop_ramp_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 290u, 1u, offsetof(hoap2_params_t, cop_ramp_s), 0.01, 0.2},
+  {"tpcc_kp_1_s2", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 1, 291u, 1u, offsetof(hoap2_params_t, tpcc_kp_1_s2), 0.0, 100.0},
+  {"tpcc_kv_1_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 1, 292u, 1u, offsetof(hoap2_params_t, tpcc_kv_1_s), 0.0, 200.0},
+  {"tpcc_kx_1_s2", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 1, 293u, 1u, offsetof(hoap2_params_t, tpcc_kx_1_s2), 0.0, 1000.0},
+  {"tpcc_error_limit_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 294u, 1u, offsetof(hoap2_params_t, tpcc_error_limit_m), 0.0, 0.1},
+  {"tpcc_shift_limit_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 295u, 1u, offsetof(hoap2_params_t, tpcc_shift_limit_m), 0.0, 0.1},
+  {"tpcc_filter_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 296u, 1u, offsetof(hoap2_params_t, tpcc_filter_s), 0.0, 0.2},
+  {"attitude_tau_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 297u, 1u, offsetof(hoap2_params_t, attitude_tau_s), 0.2, 60.0},
+  {"com_rate_filter_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 298u, 1u, offsetof(hoap2_params_t, com_rate_filter_s), 0.001, 0.2},
+  {"contact_on_N", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 299u, 1u, offsetof(hoap2_params_t, contact_on_N), 0.5, 50.0},
+  {"contact_off_N", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 300u, 1u, offsetof(hoap2_params_t, contact_off_N), 0.1, 50.0},
+  {"hold_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 301u, 1u, offsetof(hoap2_params_t, hold_s), 0.0, 1.0},
+  {"crouch_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 302u, 1u, offsetof(hoap2_params_t, crouch_s), 0.3, 10.0},
+  {"crouch_posture_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 303u, 25u, offsetof(hoap2_params_t, crouch_posture_rad), -3.2, 3.2},
+  {"servo_kp_Nm_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 328u, 25u, offsetof(hoap2_params_t, servo_kp_Nm_rad), 0.0, 100000.0},
+  {"servo_kd_Nms_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 353u, 25u, offsetof(hoap2_params_t, servo_kd_Nms_rad), 0.0, 1000.0},
+  {"behaviour", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 378u, 1u, offsetof(hoap2_params_t, behaviour), 0.0, 1.0},
+  {"steps_forward", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 379u, 1u, offsetof(hoap2_params_t, steps_forward), 0.0, 1000.0},
+  {"steps_in_place", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 380u, 1u, offsetof(hoap2_params_t, steps_in_place), 0.0, 1000.0},
+  {"first_swing_foot", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 381u, 1u, offsetof(hoap2_params_t, first_swing_foot), 0.0, 1.0},
+  {"cp_controller", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 382u, 1u, offsetof(hoap2_params_t, cp_controller), 0.0, 2.0},
+  {"cop_profile", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 383u, 1u, offsetof(hoap2_params_t, cop_profile), 0.0, 1.0},
+  {"stale_limit_ticks", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 384u, 1u, offsetof(hoap2_params_t, stale_limit_ticks), 1.0, 100.0},
 };
 
 static const char *const ELEMENT_NAMES[HOAP2_FMU_ELEMENTS] = {
@@ -383,6 +384,7 @@ static const char *const ELEMENT_NAMES[HOAP2_FMU_ELEMENTS] = {
   "cps_min_dt_s",
   "cpt_dt_s",
   "cp_filter_s",
+  "cp_deviation_limit_m",
   "cop_ramp_s",
   "tpcc_kp_1_s2",
   "tpcc_kv_1_s",

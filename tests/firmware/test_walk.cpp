@@ -145,6 +145,16 @@ TEST_P(Walk, CoPStaysInTheSoleAndTheCapturePointArrives) {
       const hoap2::Point2 cop = {loop.out.cop_ref_W_m[0], loop.out.cop_ref_W_m[1]};
       ASSERT_GE(hoap2::inside_distance(sole, cop), -1e-12) << "tick " << k;
     }
+    if (loop.out.phase != HOAP2_PHASE_STAND && loop.out.steps_done == last.steps_done &&
+        loop.out.step_index == last.step_index) {
+      for (int i = 0; i < 2; ++i) {  // the feedback laws keep to the plan's capture point, (7.10), too
+        const double cp =
+            loop.out.com_plan_W_m[i] + loop.state.gait.com_rate_m_s[i] / loop.state.gait.omega_1_s;
+        ASSERT_NEAR(loop.out.cp_ref_W_m[i], cp,
+                    params.cp_controller == HOAP2_CP_CONTROLLER_PLAN ? 1e-9 : 0.02)
+            << "tick " << k;
+      }
+    }
     if (loop.out.steps_done == last.steps_done + 1 && params.cp_controller == HOAP2_CP_CONTROLLER_PLAN) {
       // the state before this tick is one tick short of the end of the step; its own CoP carries it there
       const double omega = loop.state.gait.omega_1_s;
@@ -175,7 +185,9 @@ INSTANTIATE_TEST_SUITE_P(Ways, Walk,
                                          WalkCase{"wide", 0.015, 0.09, 0.0, 0.0, 0.5, 0, 0, 0},
                                          WalkCase{"ramp", 0.015, 0.078, 0.0, 0.0, 0.4, 0, 1, 0},
                                          WalkCase{"cps", 0.015, 0.078, 0.0, 0.0, 0.4, 0, 0, 1},
-                                         WalkCase{"cpt", 0.015, 0.078, 0.0, 0.0, 0.4, 0, 0, 2}),
+                                         WalkCase{"cpt", 0.015, 0.078, 0.0, 0.0, 0.4, 0, 0, 2},
+                                         WalkCase{"cps_ramp", 0.015, 0.078, 0.0, 0.0, 0.4, 0, 1, 1},
+                                         WalkCase{"cpt_ramp", 0.015, 0.078, 0.0, 0.0, 0.4, 0, 1, 2}),
                          [](const auto& chosen) { return std::string(chosen.param.name); });
 
 TEST(WalkOfTheBook, ThirtySixStepsOf15Millimetres) {

@@ -92,6 +92,7 @@ typedef struct {
   double cps_min_dt_s; /* floor of the shrinking horizon of (7.11), which is singular at the end of the step [s] */
   double cpt_dt_s; /* control period of (7.12) [s] */
   double cp_filter_s; /* CPS and CPT: low-pass of the deviation of the sensed capture point from the reference's [s] */
+  double cp_deviation_limit_m; /* CPS and CPT: that deviation is clipped here [m] */
   double cop_ramp_s; /* length of the CoP ramp; in a step it ends with the double support the step begins with [s] */
   double tpcc_kp_1_s2; /* torso position compliance: gain of the CoP error [1/s2] */
   double tpcc_kv_1_s; /* torso position compliance: damping [1/s] */
@@ -149,6 +150,7 @@ static inline void hoap2_params_defaults(hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cps_min_dt_s)[i_] = 0.05;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cpt_dt_s)[i_] = 0.2;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cp_filter_s)[i_] = 0.1;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cp_deviation_limit_m)[i_] = 0.003;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cop_ramp_s)[i_] = 0.08;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_kp_1_s2)[i_] = 20.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_kv_1_s)[i_] = 20.0;
@@ -199,6 +201,7 @@ static inline int hoap2_params_out_of_range(const hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->cps_min_dt_s)[i_]; if (!(v_ >= 0.01 && v_ <= 0.4)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->cpt_dt_s)[i_]; if (!(v_ >= 0.01 && v_ <= 0.4)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->cp_filter_s)[i_]; if (!(v_ >= 0.0 && v_ <= 1.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->cp_deviation_limit_m)[i_]; if (!(v_ >= 0.0 && v_ <= 0.1)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->cop_ramp_s)[i_]; if (!(v_ >= 0.01 && v_ <= 0.2)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->tpcc_kp_1_s2)[i_]; if (!(v_ >= 0.0 && v_ <= 100.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->tpcc_kv_1_s)[i_]; if (!(v_ >= 0.0 && v_ <= 200.0)) ++bad_; }
