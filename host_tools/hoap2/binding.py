@@ -105,7 +105,10 @@ class Signals:
 
 @lru_cache(maxsize=8)
 def _load(path: str) -> ctypes.CDLL:
-    library = ctypes.CDLL(path)
+    try:
+        library = ctypes.CDLL(path)
+    except OSError as error:
+        raise UserError(f"cannot load the library: {error}", "build again: ./hoap2 fmu build", 3) from None
     size_t, pointer, int32 = ctypes.c_size_t, ctypes.c_void_p, ctypes.c_int32
     signatures = {
         "hoap2_state_size": (size_t, []), "hoap2_init": (int32, [pointer, pointer]),

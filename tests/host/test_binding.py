@@ -139,3 +139,9 @@ def test_a_library_of_another_table_is_noticed():
     block._guard[0] = 0
     with pytest.raises(UserError, match="another signals.toml"):
         block.check_guard("x.so")
+
+
+def test_no_library_is_said(tmp_path):
+    (tmp_path / "broken.so").write_bytes(b"nothing")
+    with pytest.raises(UserError, match="cannot load"):
+        Controller(library=tmp_path / "broken.so")
