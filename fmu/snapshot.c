@@ -19,7 +19,7 @@ typedef struct {
   char product[32];
   char token[40]; /* hash of the tables: another table is another layout */
   int32_t schema;
-  int32_t reserved;
+  int32_t reserved; /* 0 */
   uint64_t body_size;
   uint64_t checksum; /* of the body */
 } header_t;
@@ -72,7 +72,7 @@ static header_t make_header(void) {
 static const char *header_fault(const header_t *found) {
   const header_t expected = make_header();
   if (memcmp(found->magic, expected.magic, sizeof expected.magic) != 0) return "it is not a HOAP-2 state";
-  if (found->version != expected.version) return "its format has another version";
+  if (found->version != expected.version || found->reserved != 0) return "its format has another version";
   if (found->byte_order != expected.byte_order) return "its byte order is another machine's";
   if (memcmp(found->product, expected.product, sizeof expected.product) != 0) return "it belongs to another product";
   if (found->schema != expected.schema || memcmp(found->token, expected.token, sizeof expected.token) != 0) {

@@ -86,6 +86,7 @@ hoap2_fmu_status_t hoap2_fmu_get(hoap2_fmu_instance_t *self, bool by_row, int ki
   if (!arguments_ok(self, references, count, values)) return HOAP2_FMU_ERROR;
   span_t span = {NULL, 0, 0, 0};
   size_t total = 0;
+  bool outputs = false;
   for (size_t i = 0; i < count; i += span.used) {
     if (is_time(by_row, kind, references[i])) {
       total += 1;
@@ -93,10 +94,11 @@ hoap2_fmu_status_t hoap2_fmu_get(hoap2_fmu_instance_t *self, bool by_row, int ki
       continue;
     }
     if (!find(self, by_row, kind, references + i, count - i, &span)) return HOAP2_FMU_ERROR;
-    if (span.field->group == HOAP2_FMU_OUTPUT && hoap2_fmu_prepare(self) != HOAP2_FMU_OK) return HOAP2_FMU_ERROR;
+    outputs = outputs || span.field->group == HOAP2_FMU_OUTPUT;
     total += span.count;
   }
   if (!sizes_ok(self, total, value_count)) return HOAP2_FMU_ERROR;
+  if (outputs && hoap2_fmu_prepare(self) != HOAP2_FMU_OK) return HOAP2_FMU_ERROR;
   char *target = values;
   for (size_t i = 0; i < count; i += span.used) {
     if (is_time(by_row, kind, references[i])) {

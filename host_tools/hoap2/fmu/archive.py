@@ -6,6 +6,7 @@ import difflib
 import math
 import shutil
 import tempfile
+import xml.etree.ElementTree as ElementTree
 import zipfile
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -108,12 +109,17 @@ class FmuArchive:
             raise FmuFileError(f"{self.path} is no FMU: there is no modelDescription.xml in it")
 
     def _read_description(self) -> ModelDescription:
+        path = self.folder / "modelDescription.xml"
+        try:
+            version = ElementTree.parse(path).getroot().get("fmiVersion", "an unknown version")
+        except ElementTree.ParseError as e:
+            raise FmuFileError(f"{self.path}: its modelDescription.xml is no XML: {e}") from e
+        if not (version == "2.0" or version.startswith("3.")):
+            raise FmuFileError(f"{self.path} is made for FMI {version}; FMI 2.0 and 3.0 can be run")
         try:
             description = fmpy.read_model_description(str(self.folder), validate=False)
         except Exception as e:
             raise FmuFileError(f"{self.path}: its modelDescription.xml cannot be read: {e}") from e
-        if not (description.fmiVersion == "2.0" or description.fmiVersion.startswith("3.")):
-            raise FmuFileError(f"{self.path} is made for FMI {description.fmiVersion}; FMI 2.0 and 3.0 can be run")
         if description.coSimulation is None:
             raise FmuFileError(f"{self.path} is not a Co-Simulation FMU")
         return description

@@ -11,7 +11,8 @@ from .build import FmuSet
 from .instance import FmuError
 from .pair import Pair, Trace
 
-CLOSED_LOOP_TICKS = 3000
+CLOSED_LOOP_TICKS = 4000  # start-up, calibration, and the first steps of the walk
+RESTORE_TICK = 3000
 
 
 @dataclass

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..generate.tables import load
 from .build import VERSIONS
-from .check import Check, Context, require, require_equal
+from .check import RESTORE_TICK, Check, Context, require, require_equal
 from .check_files import subjects
 from .instance import FmuArchive, FmuCallError, FmuInstance
 from .pair import Pair, Trace, replay
@@ -41,15 +41,16 @@ def _tail(trace: Trace, begin: int) -> Trace:
 
 def restore(context: Context, version: int) -> str:
     """In mid-run: back by state, and in fresh instances by bytes; both go on as before."""
-    half = context.ticks // 2
-    expected = {product: _tail(trace, half) for product, trace in context.loop(version).items()}
+    expected = {product: _tail(trace, RESTORE_TICK) for product, trace in context.loop(version).items()}
     with context.open_pair(version) as pair:
-        pair.run(half)
+        pair.run(RESTORE_TICK)
+        step_index = int(pair.controller.outputs_int[pair.controller.output_slices["step_index"]][0])
+        require(step_index > 0, f"the robot does not walk at tick {RESTORE_TICK}")
         sides = {"controller": pair.controller, "plant": pair.plant}
         states = {name: fmu.get_state() for name, fmu in sides.items()}
         blocks = {name: fmu.serialize(states[name]) for name, fmu in sides.items()}
         for attempt in ("first continuation", "restored"):
-            found = pair.run(context.ticks - half)
+            found = pair.run(context.ticks - RESTORE_TICK)
             for name in sides:
                 require_equal(found[name], expected[name], f"{name}, {attempt}")
             for name, fmu in sides.items():
@@ -57,7 +58,8 @@ def restore(context: Context, version: int) -> str:
         for state in states.values():
             state.release()
     _resume(context, version, blocks, expected)
-    return f"state and {'/'.join(str(len(b)) for b in blocks.values())} bytes at tick {half}, both go on to the bit"
+    sizes = " and ".join(str(len(b)) for b in blocks.values())
+    return f"by state and by bytes ({sizes}) in step {step_index} of the walk; both go on to the bit"
 
 
 def _resume(context: Context, version: int, blocks: dict[str, bytes], expected: dict[str, Trace]) -> None:
@@ -69,7 +71,7 @@ def _resume(context: Context, version: int, blocks: dict[str, bytes], expected: 
                 state = fmu.deserialize(blocks[fmu.product])
                 fmu.set_state(state)
                 state.release()
-            found = Pair(controller, plant).run(context.ticks - context.ticks // 2)
+            found = Pair(controller, plant).run(context.ticks - RESTORE_TICK)
             for name in blocks:
                 require_equal(found[name], expected[name], f"{name}, bytes into a fresh FMI {target} instance")
 
