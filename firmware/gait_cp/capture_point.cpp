@@ -25,15 +25,4 @@ double cop_for_ramp(double cp_des, double cp, double cop_from, double omega_1_s,
   return start + (cp_des - start) / (1.0 + ramp_gain(omega_1_s, T_s, ramp_s));
 }
 
-// (7.2) with a CoP of constant speed v has the solution e^(omega t) (cp - cop - v/omega) + cop + v t + v/omega.
-double capture_point_along_ramp(double cp, double cop_now, double cop_end, double omega_1_s, double ramp_left_s,
-                                double dT_s) {
-  if (!(ramp_left_s > 0.0)) return capture_point_after(cp, cop_end, hoap2_exp(omega_1_s * dT_s));
-  const double ramp_s = ramp_left_s < dT_s ? ramp_left_s : dT_s;
-  const double speed = (cop_end - cop_now) / ramp_left_s;
-  const double lead = speed / omega_1_s;
-  const double after_ramp = hoap2_exp(omega_1_s * ramp_s) * (cp - cop_now - lead) + cop_now + speed * ramp_s + lead;
-  return capture_point_after(after_ramp, cop_end, hoap2_exp(omega_1_s * (dT_s - ramp_s)));
-}
-
 }  // namespace hoap2

@@ -29,10 +29,5 @@ double cop_for_ramp(double cp_des, double cp, double cop_from, double omega_1_s,
 // through it and the end-of-step capture point: the start of the line along which the clamp shifts the CoP.
 double line_start_for_ramp(double cp, double cop_from, double omega_1_s, double T_s, double ramp_s);
 
-// The capture point after a time dT on the way of such a plan: the CoP, now at cop_now, moves to cop_end within
-// ramp_left_s (0: it is there) and stays.
-double capture_point_along_ramp(double cp, double cop_now, double cop_end, double omega_1_s, double ramp_left_s,
-                                double dT_s);
-
 }  // namespace hoap2
 #endif

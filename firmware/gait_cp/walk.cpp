@@ -47,14 +47,6 @@ double ramped(const hoap2_gait_t& gait, int axis, double share) {
   return gait.cop_from_m[axis] + share * (gait.cop_step_m[axis] - gait.cop_from_m[axis]);
 }
 
-// (7.10) after a time dT from now, with the ramp where there is one.
-double planned_capture_point(const hoap2_params_t& params, const hoap2_gait_t& gait, int axis, double dT_s) {
-  const double share = ramp_share(params, gait, step_time_s(gait));
-  const double left_s = share < 1.0 ? ramp_s(params, gait) - step_time_s(gait) : 0.0;
-  return capture_point_along_ramp(gait.cp_ref_m[axis], ramped(gait, axis, share), gait.cop_step_m[axis],
-                                  gait.omega_1_s, left_s, dT_s);
-}
-
 // Where the CoP may be: both soles in a double support without a swing foot and while a ramp leads from one
 // foot to the other, else the sole of the stance foot.
 SupportPolygon base_of_support(const hoap2_params_t& params, const hoap2_gait_t& gait) {
@@ -64,8 +56,9 @@ SupportPolygon base_of_support(const hoap2_params_t& params, const hoap2_gait_t&
 }
 
 // (7.11): horizon to the end of the step, floored because the law is singular there.
-// (7.12): horizon of one control period, towards (7.10) at its end.
-void controlled_cop(const hoap2_params_t& params, hoap2_gait_t& gait) {
+// (7.12): horizon of one control period, towards (7.10) at its end with the CoP of the plan held; so on the plan
+// it is the CoP of the plan, along a ramp too.
+void controlled_cop(const hoap2_params_t& params, const double plan_cop_m[2], hoap2_gait_t& gait) {
   const bool cps = params.cp_controller == HOAP2_CP_CONTROLLER_CPS;
   const double left_s = (gait.step_ticks - gait.step_tick) * kTick_s;
   const double horizon_s =
@@ -76,7 +69,7 @@ void controlled_cop(const hoap2_params_t& params, hoap2_gait_t& gait) {
   double target[2];
   for (int i = 0; i < 2; ++i) {
     cp[i] = gait.com_m[i] + gait.com_rate_m_s[i] / gait.omega_1_s + gait.cp_deviation_m[i];
-    target[i] = cps ? gait.cp_eos_m[i] : planned_capture_point(params, gait, i, horizon_s);
+    target[i] = cps ? gait.cp_eos_m[i] : capture_point_after(gait.cp_ref_m[i], plan_cop_m[i], growth);
     cop[i] = cop_for_capture_point(target[i], cp[i], growth);
   }
   const SupportPolygon polygon = base_of_support(params, gait);
@@ -238,7 +231,7 @@ void hoap2_gait_step(const hoap2_params_t* params, const hoap2_sense_t* sense, h
     double plan_cop_m[2];
     hoap2::planned_cop(*params, *gait, plan_cop_m);
     if (controlled)
-      hoap2::controlled_cop(*params, *gait);
+      hoap2::controlled_cop(*params, plan_cop_m, *gait);
     else
       memcpy(gait->cop_m, plan_cop_m, sizeof plan_cop_m);
     hoap2::pendulum_tick(controlled, plan_cop_m, *gait);

@@ -16,17 +16,20 @@ LINKS = 26
 def build_probe(repo_root: Path) -> Path:
     """Bring the probe library up to date and say where it is.
 
-    It lives in a small build of its own (no plant, no pictures), so that it is never older than the sources.
-    HOAP2_KINEMATICS_PROBE names a library to be taken instead.
+    It comes from the tests' build where there is one, else from a small build of its own (no plant, no pictures);
+    either way it is never older than the sources. HOAP2_KINEMATICS_PROBE names a library to be taken instead.
     """
     given = os.environ.get("HOAP2_KINEMATICS_PROBE")
     if given:
         return Path(given)
-    build = repo_root / "build" / "oracle"
-    configure = ["cmake", "-S", str(repo_root), "-B", str(build), "-DHOAP2_SIM=OFF", "-DHOAP2_TESTS=ON",
-                 "-DCMAKE_BUILD_TYPE=Release"]
-    compile_probe = ["cmake", "--build", str(build), "--target", "hoap2_kinematics_probe"]
-    for command in (configure, compile_probe):
+    build = repo_root / "build" / "host"
+    commands = []
+    if not (build / "build.ninja").exists():
+        build = repo_root / "build" / "oracle"
+        commands.append(["cmake", "-S", str(repo_root), "-B", str(build), "-DHOAP2_SIM=OFF", "-DHOAP2_TESTS=ON",
+                         "-DCMAKE_BUILD_TYPE=Release"])
+    commands.append(["cmake", "--build", str(build), "--target", "hoap2_kinematics_probe"])
+    for command in commands:
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode != 0:
             raise RuntimeError(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}\n{done.stderr[-4000:]}")
