@@ -299,6 +299,10 @@ TEST(Fmi3, StateOfAnotherProductOrTableIsRefused) {
 TEST(Fmi3, StatesOfEveryModeComeBack) {
   for (const Mode mode : MODES) {
     fmi3Instance a = make_in(mode), b = make();
+    const hoap2_fmu_field_t& input = some_field(HOAP2_FMU_INPUT, HOAP2_FMU_REAL);
+    const unsigned row = row_of(input);
+    for (uint32_t e = 0; e < input.count; ++e) reals()[e] = 0.01 * e; /* not the start values */
+    EXPECT_EQ(fmi3SetFloat64(a, &row, 1, reals(), input.count), mode == TERMINATED ? fmi3Error : fmi3OK);
     const std::vector<fmi3Byte> bytes = bytes_of(a);
     fmi3FMUState state = nullptr;
     EXPECT_EQ(fmi3DeserializeFMUState(b, bytes.data(), bytes.size(), &state), fmi3OK);

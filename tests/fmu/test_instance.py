@@ -164,6 +164,21 @@ def test_state_belongs_to_time_and_tick(files: FmuSet) -> None:
         assert fmu.serialize() == other.serialize()
 
 
+def test_states_are_freed_with_their_instance_and_stay_with_it(files: FmuSet) -> None:
+    with open_fmu(files, "plant", 3) as fmu, open_fmu(files, "plant", 3) as other:
+        fmu.initialize()
+        kept, released = fmu.get_state(), fmu.get_state()
+        released.release()
+        released.release()
+        with pytest.raises(FmuCallError, match="released"):
+            fmu.set_state(released)
+        with pytest.raises(FmuCallError, match="another instance"):
+            other.set_state(kept)
+        assert fmu.states == [kept]
+        fmu.close()
+        assert fmu.states == [] and not kept.pointer
+
+
 def test_other_fmi_versions_and_kinds_are_refused(files: FmuSet, tmp_path: Path) -> None:
     good = files.fmu("plant", 3)
     with pytest.raises(FmuFileError, match=r"FMI 1\.0"):

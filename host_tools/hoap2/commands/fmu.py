@@ -70,7 +70,7 @@ def _show(context, quick: bool) -> int:
     console.print(table)
     failed = [r for r in results if not r.ok]
     seconds = sum(r.seconds for r in results)
-    console.print(f"{len(results) - len(failed)} of {len(results)} checks hold ({seconds:.0f} s)")
+    console.print(f"{len(results) - len(failed)} of {len(results)} checks hold ({seconds:.0f} s); equal means to the bit")
     return 1 if failed else 0
 
 

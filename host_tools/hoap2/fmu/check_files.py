@@ -84,7 +84,7 @@ def libraries(context: Context, version: int) -> str:
         for name in ("libode.so.8", "libccd.so.2"):
             place = own.get(name, "nowhere")
             require(Path(place).parent.resolve() == archive.binary.parent.resolve(), f"{name} comes from {place}")
-    return "libode, libccd from the FMU's own folder"
+    return "libode, libccd beside the binary are used"
 
 
 def source_build(context: Context, version: int) -> str:
@@ -105,7 +105,7 @@ def source_build(context: Context, version: int) -> str:
     with FmuInstance(rebuilt) as fmu:
         fmu.initialize()
         require_equal(replay(fmu, recorded), recorded, "rebuilt from sources")
-    return f"compiled by fmpy, {len(recorded.inputs_real)} ticks equal to the bit"
+    return f"compiled by fmpy; {len(recorded.inputs_real)} ticks equal"
 
 
 def _fmpy_compile(folder: Path) -> None:
@@ -137,7 +137,7 @@ def ssp(context: Context) -> str:
     require(len(found) == len(set(found)) and set(found) == set(connections(table)), "connections are missing or double")
     inputs = sum(s.count for s in table.signals if s.group == "input")
     require(len(found) == inputs, f"{len(found)} connections for {inputs} inputs")
-    return f"{len(found)} connections, every input of both FMUs driven"
+    return f"{len(found)} connections, every input driven"
 
 
 def _damaged(context: Context) -> dict[str, Path]:

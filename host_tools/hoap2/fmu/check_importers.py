@@ -32,7 +32,7 @@ def fmpy_simulation(context: Context, product: str, version: int) -> str:
             if point < HELD_TICKS:
                 fmu.step()
                 fmu.read()
-    return f"{HELD_TICKS} ticks with the start values held, equal to the bit"
+    return f"{HELD_TICKS} ticks equal"
 
 
 def _values(fmu: FmuInstance, name: str, kind: str) -> np.ndarray:
@@ -71,7 +71,7 @@ def libcosim(context: Context) -> str:
             found[product].outputs_int.append(np.array(observer.last_integer_values(index, integer), dtype=np.int32))
     for product in slaves:
         require_equal(found[product], recorded[product], f"{product} in libcosim")
-    return f"{context.ticks} ticks of closed loop equal to the bit"
+    return f"{context.ticks} ticks of closed loop equal"
 
 
 def _references(context: Context, product: str) -> tuple[list[int], list[int]]:

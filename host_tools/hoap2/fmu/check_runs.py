@@ -23,7 +23,7 @@ def versions_agree(context: Context) -> str:
     a, b = context.loop(2), context.loop(3)
     for product in a:
         require_equal(a[product], b[product], f"{product}, FMI 2 against FMI 3")
-    return f"{context.ticks} ticks of closed loop equal to the bit"
+    return f"{context.ticks} ticks of closed loop equal"
 
 
 def run_twice(context: Context) -> str:
@@ -32,7 +32,7 @@ def run_twice(context: Context) -> str:
         again = pair.run(context.ticks)
     for product, trace in context.loop(3).items():
         require_equal(again[product], trace, f"{product}, second run")
-    return f"{context.ticks} ticks of closed loop equal to the bit"
+    return f"{context.ticks} ticks of closed loop equal"
 
 
 def _tail(trace: Trace, begin: int) -> Trace:
@@ -59,7 +59,7 @@ def restore(context: Context, version: int) -> str:
             state.release()
     _resume(context, version, blocks, expected)
     sizes = " and ".join(str(len(b)) for b in blocks.values())
-    return f"by state and by bytes ({sizes}) in step {step_index} of the walk; both go on to the bit"
+    return f"in step {step_index} of the walk, by state and by bytes ({sizes}): equal"
 
 
 def _resume(context: Context, version: int, blocks: dict[str, bytes], expected: dict[str, Trace]) -> None:
@@ -97,7 +97,7 @@ def step_sizes(context: Context, product: str, version: int) -> str:
     archive.close()
     different = [n for n in STEP_SIZES if results[n] != results[1]]
     require(not different, f"steps of {different} ticks give other bytes than steps of 1")
-    return f"steps of {', '.join(map(str, STEP_SIZES))} ticks: outputs and state equal to the bit"
+    return f"steps of {', '.join(map(str, STEP_SIZES))} ticks: equal, state too"
 
 
 def bad_steps(context: Context, product: str, version: int) -> str:
@@ -148,7 +148,7 @@ def interleaved(context: Context, product: str, version: int) -> str:
     archive.close()
     head = Trace(outputs_real=recorded.outputs_real[: ticks + 1], outputs_int=recorded.outputs_int[: ticks + 1])
     require_equal(found, head, "beside another instance")
-    return f"{ticks} ticks equal to the bit beside another instance"
+    return f"{ticks} ticks beside another instance: equal"
 
 
 def other_threads(context: Context, product: str, version: int) -> str:
@@ -177,7 +177,7 @@ def other_threads(context: Context, product: str, version: int) -> str:
         raise failures[0]
     head = Trace(outputs_real=recorded.outputs_real[:601], outputs_int=recorded.outputs_int[:601])
     require_equal(found, head, "from other threads")
-    return f"600 ticks from {len(parts)} other threads equal to the bit"
+    return f"600 ticks from {len(parts)} other threads: equal"
 
 
 def bad_parameters(context: Context, product: str, version: int) -> str:
@@ -239,7 +239,7 @@ def nan_plant(context: Context, version: int) -> str:
         fmu.write()
         require(fmu.serialize() == before, "the refused step changed the state")
         require_equal(replay(fmu, recorded, 300, 600), _span(recorded, 300, 600), "after the refused step")
-    return "refused with a reason, then goes on to the bit"
+    return "refused with a reason, then goes on equal"
 
 
 def _span(trace: Trace, begin: int, end: int) -> Trace:

@@ -25,15 +25,17 @@ KEPT_LOG_LINES = 200
 
 
 class FmuState:
-    """A saved state of one instance; freed with it or on release()."""
+    """A saved state of one instance; freed with it, or before by release()."""
 
     def __init__(self, owner: FmuInstance, pointer: ctypes.c_void_p, tick: int | None):
         self.owner, self.pointer, self.tick = owner, pointer, tick
+        owner.states.append(self)
 
     def release(self) -> None:
         """Give the memory back; harmless when done twice."""
         if self.pointer and self.owner.component:
             self.owner.call("FreeFMUState", ctypes.byref(self.pointer))
+            self.owner.states.remove(self)
         self.pointer = ctypes.c_void_p()
 
 
@@ -69,6 +71,7 @@ class FmuInstance:
         self.version, self.product, self.rows = self.archive.version, self.archive.product, self.archive.rows
         self.name = name or self.product
         self.log: list[tuple[int, str, str]] = []  # status, category, text
+        self.states: list[FmuState] = []  # not yet released
         self._parameters: dict[str, np.ndarray] = {}
         self.tick = 0
         self.start_time_s = 0.0
@@ -296,6 +299,8 @@ class FmuInstance:
     def close(self) -> None:
         """Free the instance, whatever its state."""
         if self.component:
+            for state in list(self.states):
+                state.release()
             getattr(self._library, f"fmi{self.version}FreeInstance")(self._handle)
             self.component = None
         if self._own_archive:
@@ -317,6 +322,8 @@ class FmuInstance:
 
     def set_state(self, state: FmuState) -> None:
         """Go back to a saved state; the output arrays are read, the input arrays stay as they are."""
+        if state.owner is not self or not state.pointer:
+            raise FmuCallError(f"{self.name}: this state was released, or is another instance's; pass its bytes on instead")
         self.call("SetFMUState", state.pointer)
         self.initialised = True
         self.tick = state.tick if state.tick is not None else self._tick_of_fmu()
