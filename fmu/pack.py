@@ -119,9 +119,9 @@ def pack_fmu(args: argparse.Namespace) -> None:
             xml = xml.replace("@SOURCE_FILES@", f"    <SourceFiles>\n{listed}\n    </SourceFiles>")
     files["modelDescription.xml"] = xml.replace("@SOURCE_FILES@", "").encode()
     files["documentation/index.html"] = (FMU / "generated" / f"{args.product}.html").read_bytes()
-    icon = FMU / "icon.png"
-    if icon.exists():
-        files["model.png" if args.fmi == "2" else "terminalsAndIcons/icon.png"] = icon.read_bytes()
+    icon = (FMU / "icon.png").read_bytes()
+    files["documentation/robot.png"] = icon
+    files["model.png" if args.fmi == "2" else "terminalsAndIcons/icon.png"] = icon
     files |= licences(args.product, bool(args.firmware) or args.product == "controller")
     folder = f"binaries/{PLATFORM[args.fmi]}"
     files[f"{folder}/hoap2_{args.product}.so"] = Path(args.binary).read_bytes()

@@ -12,7 +12,7 @@ h1, h2 { font-weight: 600; } h2 { margin-top: 2em; border-bottom: 1px solid #ccc
 table { border-collapse: collapse; width: 100%; } th, td { text-align: left; padding: .25em .6em; vertical-align: top; }
 tr:nth-child(even) { background: #f4f6f8; } th { border-bottom: 2px solid #888; }
 code, pre { font-family: monospace; background: #f0f2f4; } code { padding: 0 .2em; } pre { padding: .8em; overflow-x: auto; }
-ol.joints { columns: 4; } .note { color: #555; }"""
+ol.joints { columns: 4; } img.robot { float: right; border-radius: 8px; margin-left: 1em; } .note { color: #555; }"""
 
 ABOUT = {
     "controller": """<p>The firmware of the walking controller, exactly as it runs elsewhere, behind FMI Co-Simulation. In:
@@ -94,7 +94,7 @@ def page(table: Table, product: str) -> str:
         order += f"<p>Bits of <code>fault</code>: {faults}.</p>"
     groups = "\n".join(f"<h2>{group.capitalize()}s</h2>\n{_rows_table(table, product, group)}" for group in GROUPS)
     return (f"<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><title>hoap2_{product}</title>\n<style>{STYLE}</style>"
-            f"</head><body>\n<h1>hoap2_{product}</h1>\n<p><b>{escape(PRODUCT_TEXT[product])}.</b></p>\n{ABOUT[product]}\n"
+            f"</head><body>\n<img class=robot src="robot.png" alt="the robot">\n<h1>hoap2_{product}</h1>\n<p><b>{escape(PRODUCT_TEXT[product])}.</b></p>\n{ABOUT[product]}\n"
             f"<p class=note>Instantiation token {token(table, product)}. Generated from the table of signals.</p>\n"
             f"<h2>Rules</h2>\n{RULES.format(tick_ms=table.tick_us / 1000)}\n<h2>Example</h2>\n<pre>{escape(examples)}</pre>\n"
             f"{order}\n<h2>Units and frames</h2>\n<p>SI units, angles in rad. Names carry frame and unit: W world (x forward, y "
