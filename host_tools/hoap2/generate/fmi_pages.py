@@ -94,7 +94,7 @@ def page(table: Table, product: str) -> str:
         order += f"<p>Bits of <code>fault</code>: {faults}.</p>"
     groups = "\n".join(f"<h2>{group.capitalize()}s</h2>\n{_rows_table(table, product, group)}" for group in GROUPS)
     return (f"<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><title>hoap2_{product}</title>\n<style>{STYLE}</style>"
-            f"</head><body>\n<img class=robot src="robot.png" alt="the robot">\n<h1>hoap2_{product}</h1>\n<p><b>{escape(PRODUCT_TEXT[product])}.</b></p>\n{ABOUT[product]}\n"
+            f"</head><body>\n<img class=robot src=robot.png alt='the robot'>\n<h1>hoap2_{product}</h1>\n<p><b>{escape(PRODUCT_TEXT[product])}.</b></p>\n{ABOUT[product]}\n"
             f"<p class=note>Instantiation token {token(table, product)}. Generated from the table of signals.</p>\n"
             f"<h2>Rules</h2>\n{RULES.format(tick_ms=table.tick_us / 1000)}\n<h2>Example</h2>\n<pre>{escape(examples)}</pre>\n"
             f"{order}\n<h2>Units and frames</h2>\n<p>SI units, angles in rad. Names carry frame and unit: W world (x forward, y "
