@@ -41,6 +41,8 @@ const char *name_of_bad_parameter(const hoap2_plant_params_t &params, int bad) {
   HOAP2_TRY(chest_com_shift_L_m);
   HOAP2_TRY(floor_tilt_rad);
   HOAP2_TRY(friction_mu);
+  HOAP2_TRY(contact_stiffness_N_m);
+  HOAP2_TRY(contact_damping_Ns_m);
   HOAP2_TRY(block_centre_W_m);
   HOAP2_TRY(block_size_m);
   HOAP2_TRY(block_yaw_W_rad);

@@ -136,7 +136,7 @@ void Plant::solve(const hoap2_plant_inputs_t &inputs, State *next) {
     put(link_axes_W(state_, HOAP2_JOINT[j].child_link).column(HOAP2_JOINT[j].axis), axis_W[j]);
   }
   ground_.find_contacts(state_, &contacts_);
-  engine_.set_contacts(contacts_, state_.params.friction_mu);
+  engine_.set_contacts(contacts_, state_.params);
   for (int solves = 1; solves <= kMaxSolves; ++solves) {
     engine_.write(state_);
     apply_pushes(next);

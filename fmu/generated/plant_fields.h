@@ -7,8 +7,8 @@
 #include "../product.h"
 #include "hoap2_plant/generated/plant_signals.h"
 
-#define HOAP2_FMU_TOKEN "{c5f6a184-e2f4-c90a-5b7a-a54fcdc775b7}"
-enum { HOAP2_FMU_FIELDS = 56, HOAP2_FMU_ELEMENTS = 565 };
+#define HOAP2_FMU_TOKEN "{22b540c1-cc55-f691-edc3-11554c96a67f}"
+enum { HOAP2_FMU_FIELDS = 58, HOAP2_FMU_ELEMENTS = 567 };
 
 /* name, group, kind, tunable, FMI 2 value reference of the first element, elements, offset, range */
 static const hoap2_fmu_field_t FIELDS[HOAP2_FMU_FIELDS] = {
@@ -53,21 +53,23 @@ static const hoap2_fmu_field_t FIELDS[HOAP2_FMU_FIELDS] = {
   {"chest_com_shift_L_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 362u, 3u, offsetof(hoap2_plant_params_t, chest_com_shift_L_m), -0.02, 0.02},
   {"floor_tilt_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 365u, 2u, offsetof(hoap2_plant_params_t, floor_tilt_rad), -0.4, 0.4},
   {"friction_mu", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 367u, 1u, offsetof(hoap2_plant_params_t, friction_mu), 0.0, 10.0},
-  {"block_centre_W_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 368u, 48u, offsetof(hoap2_plant_params_t, block_centre_W_m), -1000000.0, 1000000.0},
-  {"block_size_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 416u, 48u, offsetof(hoap2_plant_params_t, block_size_m), 0.001, 100.0},
-  {"block_yaw_W_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 464u, 16u, offsetof(hoap2_plant_params_t, block_yaw_W_rad), -7.0, 7.0},
-  {"joint_friction_scale", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 480u, 1u, offsetof(hoap2_plant_params_t, joint_friction_scale), 0.0, 10.0},
-  {"roll_stiffness_Nm_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 481u, 1u, offsetof(hoap2_plant_params_t, roll_stiffness_Nm_rad), 0.0, 100000.0},
-  {"roll_damping_Nms_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 482u, 1u, offsetof(hoap2_plant_params_t, roll_damping_Nms_rad), 0.0, 100.0},
-  {"push_force_W_N", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 483u, 24u, offsetof(hoap2_plant_params_t, push_force_W_N), -500.0, 500.0},
-  {"push_point_L_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 507u, 24u, offsetof(hoap2_plant_params_t, push_point_L_m), -1.0, 1.0},
-  {"push_start_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 531u, 8u, offsetof(hoap2_plant_params_t, push_start_s), 0.0, 1000000.0},
-  {"push_duration_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 539u, 8u, offsetof(hoap2_plant_params_t, push_duration_s), 0.0, 1000000.0},
-  {"push_ramp_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 547u, 8u, offsetof(hoap2_plant_params_t, push_ramp_s), 0.0, 100000.0},
-  {"seed", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 555u, 1u, offsetof(hoap2_plant_params_t, seed), 0.0, 2147483647.0},
-  {"sensor_preset", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 556u, 1u, offsetof(hoap2_plant_params_t, sensor_preset), 0.0, 1.0},
-  {"block_count", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 557u, 1u, offsetof(hoap2_plant_params_t, block_count), 0.0, 16.0},
-  {"push_link", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 558u, 8u, offsetof(hoap2_plant_params_t, push_link), 0.0, 25.0},
+  {"contact_stiffness_N_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 368u, 1u, offsetof(hoap2_plant_params_t, contact_stiffness_N_m), 1000.0, 100000000.0},
+  {"contact_damping_Ns_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 369u, 1u, offsetof(hoap2_plant_params_t, contact_damping_Ns_m), 0.0, 1000000.0},
+  {"block_centre_W_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 370u, 48u, offsetof(hoap2_plant_params_t, block_centre_W_m), -1000000.0, 1000000.0},
+  {"block_size_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 418u, 48u, offsetof(hoap2_plant_params_t, block_size_m), 0.001, 100.0},
+  {"block_yaw_W_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 466u, 16u, offsetof(hoap2_plant_params_t, block_yaw_W_rad), -7.0, 7.0},
+  {"joint_friction_scale", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 482u, 1u, offsetof(hoap2_plant_params_t, joint_friction_scale), 0.0, 10.0},
+  {"roll_stiffness_Nm_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 483u, 1u, offsetof(hoap2_plant_params_t, roll_stiffness_Nm_rad), 0.0, 100000.0},
+  {"roll_damping_Nms_rad", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 484u, 1u, offsetof(hoap2_plant_params_t, roll_damping_Nms_rad), 0.0, 100.0},
+  {"push_force_W_N", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 485u, 24u, offsetof(hoap2_plant_params_t, push_force_W_N), -500.0, 500.0},
+  {"push_point_L_m", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 509u, 24u, offsetof(hoap2_plant_params_t, push_point_L_m), -1.0, 1.0},
+  {"push_start_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 533u, 8u, offsetof(hoap2_plant_params_t, push_start_s), 0.0, 1000000.0},
+  {"push_duration_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 541u, 8u, offsetof(hoap2_plant_params_t, push_duration_s), 0.0, 1000000.0},
+  {"push_ramp_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 549u, 8u, offsetof(hoap2_plant_params_t, push_ramp_s), 0.0, 100000.0},
+  {"seed", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 557u, 1u, offsetof(hoap2_plant_params_t, seed), 0.0, 2147483647.0},
+  {"sensor_preset", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 558u, 1u, offsetof(hoap2_plant_params_t, sensor_preset), 0.0, 1.0},
+  {"block_count", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 559u, 1u, offsetof(hoap2_plant_params_t, block_count), 0.0, 16.0},
+  {"push_link", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 560u, 8u, offsetof(hoap2_plant_params_t, push_link), 0.0, 25.0},
 };
 
 static const char *const ELEMENT_NAMES[HOAP2_FMU_ELEMENTS] = {
@@ -438,6 +440,8 @@ static const char *const ELEMENT_NAMES[HOAP2_FMU_ELEMENTS] = {
   "floor_tilt_rad.x",
   "floor_tilt_rad.y",
   "friction_mu",
+  "contact_stiffness_N_m",
+  "contact_damping_Ns_m",
   "block_centre_W_m[1].x",
   "block_centre_W_m[1].y",
   "block_centre_W_m[1].z",

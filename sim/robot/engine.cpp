@@ -5,24 +5,23 @@
 namespace hoap2_sim {
 namespace {
 
-// Contact of a corner with the ground as a spring and a damper, solved implicitly:
-// erp = h k / (h k + d), cfm = 1 / (h k + d). 0.07 mm under the standing robot.
-constexpr double kContactStiffness_N_m = 5e5;
-constexpr double kContactDamping_Ns_m = 1500.0;
-constexpr double kContactRow_Ns_m = kTick_s * kContactStiffness_N_m + kContactDamping_Ns_m;
 // Creep of a loaded contact along the ground, per newton: regularises the friction
 // rows of a flat sole, which are redundant otherwise.
 constexpr double kContactSlip_m_Ns = 1e-6;
 constexpr double kWorldCfm = 1e-10;
 constexpr double kWorldErp = 0.2;
 
-dContact contact_of(const Contact &at, double friction_mu) {
+// Contact of a corner with the ground as a spring and a damper, solved implicitly:
+// erp = h k / (h k + d), cfm = 1 / (h k + d).
+dContact contact_of(const Contact &at, const hoap2_plant_params_t &params) {
+  const double spring_Ns_m = kTick_s * params.contact_stiffness_N_m;
+  const double row_Ns_m = spring_Ns_m + params.contact_damping_Ns_m;
   dContact contact = {};
   contact.surface.mode =
       dContactSoftERP | dContactSoftCFM | dContactApprox1 | dContactFDir1 | dContactSlip1 | dContactSlip2;
-  contact.surface.mu = friction_mu;
-  contact.surface.soft_erp = kTick_s * kContactStiffness_N_m / kContactRow_Ns_m;
-  contact.surface.soft_cfm = 1.0 / kContactRow_Ns_m;
+  contact.surface.mu = params.friction_mu;
+  contact.surface.soft_erp = spring_Ns_m / row_Ns_m;
+  contact.surface.soft_cfm = 1.0 / row_Ns_m;
   contact.surface.slip1 = kContactSlip_m_Ns;
   contact.surface.slip2 = kContactSlip_m_Ns;
   for (int i = 0; i < 3; ++i) {
@@ -148,10 +147,10 @@ void Engine::set_motor(int joint, const MotorRow &row) {
   dJointSetHingeParam(hinge_[joint], dParamVel, row.target_rad_s);
 }
 
-void Engine::set_contacts(const ContactList &contacts, double friction_mu) {
+void Engine::set_contacts(const ContactList &contacts, const hoap2_plant_params_t &params) {
   dJointGroupEmpty(contact_group_);
   for (int i = 0; i < contacts.count; ++i) {
-    const dContact contact = contact_of(contacts.at[i], friction_mu);
+    const dContact contact = contact_of(contacts.at[i], params);
     const dJointID joint = dJointCreateContact(world_, contact_group_, &contact);
     dJointAttach(joint, body_[contacts.at[i].link], nullptr);
     feedback_[i] = dJointFeedback{};

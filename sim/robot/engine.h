@@ -34,7 +34,7 @@ class Engine {
   void write(const State &state);
   void add_force(int link, const double force_W_N[3], const double point_W_m[3]);
   void set_motor(int joint, const MotorRow &row);
-  void set_contacts(const ContactList &contacts, double friction_mu);
+  void set_contacts(const ContactList &contacts, const hoap2_plant_params_t &params);
   void step();
   // Poses and velocities after step(), from the state before it.
   void read(const State &before, State *state) const;

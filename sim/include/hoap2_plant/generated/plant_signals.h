@@ -53,6 +53,8 @@ typedef struct {
   double chest_com_shift_L_m[3]; /* shift of the chest's CoM against the model [m] */
   double floor_tilt_rad[2]; /* floor tilt about x and about y through the start point [rad] */
   double friction_mu; /* Coulomb friction of the floor [1] */
+  double contact_stiffness_N_m; /* spring of a contact point (a corner of a sole) with the floor [N/m] */
+  double contact_damping_Ns_m; /* damper of a contact point with the floor [N.s/m] */
   double block_centre_W_m[16][3]; /* centre of each block [m] */
   double block_size_m[16][3]; /* full size of each block [m] */
   double block_yaw_W_rad[16]; /* yaw of each block [rad] */
@@ -96,6 +98,8 @@ static inline void hoap2_plant_params_defaults(hoap2_plant_params_t *p) {
   for (int i_ = 0; i_ < 3; ++i_) ((double *)(void *)&(p)->chest_com_shift_L_m)[i_] = 0.0;
   for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->floor_tilt_rad)[i_] = 0.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->friction_mu)[i_] = 0.7;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->contact_stiffness_N_m)[i_] = 500000.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->contact_damping_Ns_m)[i_] = 1500.0;
   for (int i_ = 0; i_ < 48; ++i_) ((double *)(void *)&(p)->block_centre_W_m)[i_] = 0.0;
   for (int i_ = 0; i_ < 48; ++i_) ((double *)(void *)&(p)->block_size_m)[i_] = 0.1;
   for (int i_ = 0; i_ < 16; ++i_) ((double *)(void *)&(p)->block_yaw_W_rad)[i_] = 0.0;
@@ -127,6 +131,8 @@ static inline int hoap2_plant_params_out_of_range(const hoap2_plant_params_t *p)
   for (int i_ = 0; i_ < 3; ++i_) { const double v_ = ((const double *)(const void *)&p->chest_com_shift_L_m)[i_]; if (!(v_ >= -0.02 && v_ <= 0.02)) ++bad_; }
   for (int i_ = 0; i_ < 2; ++i_) { const double v_ = ((const double *)(const void *)&p->floor_tilt_rad)[i_]; if (!(v_ >= -0.4 && v_ <= 0.4)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->friction_mu)[i_]; if (!(v_ >= 0.0 && v_ <= 10.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->contact_stiffness_N_m)[i_]; if (!(v_ >= 1000.0 && v_ <= 100000000.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->contact_damping_Ns_m)[i_]; if (!(v_ >= 0.0 && v_ <= 1000000.0)) ++bad_; }
   for (int i_ = 0; i_ < 48; ++i_) { const double v_ = ((const double *)(const void *)&p->block_centre_W_m)[i_]; if (!(v_ >= -1000000.0 && v_ <= 1000000.0)) ++bad_; }
   for (int i_ = 0; i_ < 48; ++i_) { const double v_ = ((const double *)(const void *)&p->block_size_m)[i_]; if (!(v_ >= 0.001 && v_ <= 100.0)) ++bad_; }
   for (int i_ = 0; i_ < 16; ++i_) { const double v_ = ((const double *)(const void *)&p->block_yaw_W_rad)[i_]; if (!(v_ >= -7.0 && v_ <= 7.0)) ++bad_; }
