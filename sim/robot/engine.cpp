@@ -56,24 +56,27 @@ Vec3 gyroscopic_torque_W_Nm(const BodyState &body, int link) {
 
 }  // namespace
 
-Engine::~Engine() {
+Engine::~Engine() { destroy(); }
+
+void Engine::destroy() {
   if (world_ == nullptr) return;
   dJointGroupDestroy(contact_group_);
   dWorldDestroy(world_);
+  dThreadingFreeImplementation(jobs_);
+  abandon();
 }
 
 void Engine::abandon() {
   world_ = nullptr;
   contact_group_ = nullptr;
+  jobs_ = nullptr;
 }
 
 void Engine::build(const hoap2_plant_params_t &params) {
-  if (world_ != nullptr) {
-    dJointGroupDestroy(contact_group_);
-    dWorldDestroy(world_);
-    abandon();
-  }
+  destroy();
   world_ = dWorldCreate();
+  jobs_ = dThreadingAllocateSelfThreadedImplementation();
+  dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(jobs_), jobs_);
   contact_group_ = dJointGroupCreate(0);
   dWorldSetGravity(world_, 0.0, 0.0, -params.gravity_m_s2);
   dWorldSetCFM(world_, kWorldCfm);

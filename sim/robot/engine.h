@@ -44,10 +44,14 @@ class Engine {
   void contact_load(int i, double force_W_N[3], double moment_com_W_Nm[3]) const;
 
  private:
+  void destroy();
   void add_bodies(const hoap2_plant_params_t &params);
   void add_hinges();
 
   dWorldID world_ = nullptr;
+  // The job list of dWorldStep. ODE's default is one for all worlds of the process, without
+  // a lock: two instances stepped at the same time would take each other's jobs.
+  dThreadingImplementationID jobs_ = nullptr;
   dJointGroupID contact_group_ = nullptr;
   dBodyID body_[HOAP2_LINKS] = {};
   dJointID hinge_[HOAP2_JOINTS] = {};
