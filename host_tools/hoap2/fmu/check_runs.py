@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
@@ -33,6 +34,10 @@ def run_twice(context: Context) -> str:
     for product, trace in context.loop(3).items():
         require_equal(again[product], trace, f"{product}, second run")
     return f"{context.ticks} ticks of closed loop equal"
+
+
+def _span(trace: Trace, begin: int, end: int) -> Trace:
+    return Trace(outputs_real=trace.outputs_real[begin: end + 1], outputs_int=trace.outputs_int[begin: end + 1])
 
 
 def _tail(trace: Trace, begin: int) -> Trace:
@@ -146,8 +151,7 @@ def interleaved(context: Context, product: str, version: int) -> str:
             one.read()
             found.note_outputs(one)
     archive.close()
-    head = Trace(outputs_real=recorded.outputs_real[: ticks + 1], outputs_int=recorded.outputs_int[: ticks + 1])
-    require_equal(found, head, "beside another instance")
+    require_equal(found, _span(recorded, 0, ticks), "beside another instance")
     return f"{ticks} ticks beside another instance: equal"
 
 
@@ -175,9 +179,25 @@ def other_threads(context: Context, product: str, version: int) -> str:
             worker.join()
     if failures:
         raise failures[0]
-    head = Trace(outputs_real=recorded.outputs_real[:601], outputs_int=recorded.outputs_int[:601])
-    require_equal(found, head, "from other threads")
+    require_equal(found, _span(recorded, 0, 600), "from other threads")
     return f"600 ticks from {len(parts)} other threads: equal"
+
+
+def at_once(context: Context, product: str, version: int) -> str:
+    """Two instances of one library stepped by two threads at the same time."""
+    recorded = context.loop(version)[product]
+    ticks = min(context.ticks, 2500)
+    with FmuArchive(context.files.fmu(product, version)) as archive:
+        instances = [FmuInstance(archive, name=name) for name in ("one", "two")]
+        for fmu in instances:
+            fmu.initialize()
+        with ThreadPoolExecutor(len(instances)) as pool:
+            found = list(pool.map(lambda fmu: replay(fmu, recorded, 0, ticks), instances))
+        for fmu in instances:
+            fmu.close()
+    for trace in found:
+        require_equal(trace, _span(recorded, 0, ticks), "beside another thread's instance")
+    return f"{ticks} ticks in two threads at the same time: equal"
 
 
 def bad_parameters(context: Context, product: str, version: int) -> str:
@@ -242,10 +262,6 @@ def nan_plant(context: Context, version: int) -> str:
     return "refused with a reason, then goes on equal"
 
 
-def _span(trace: Trace, begin: int, end: int) -> Trace:
-    return Trace(outputs_real=trace.outputs_real[begin: end + 1], outputs_int=trace.outputs_int[begin: end + 1])
-
-
 def exchange_cost(context: Context, version: int) -> str:
     """Both FMUs' set and get calls, the models' own time left out."""
     costs = []
@@ -266,7 +282,7 @@ def checks() -> list[Check]:
     found = [Check("FMI 2 = FMI 3", "pairs", versions_agree), Check("repeatable", "pair FMI 3", run_twice)]
     found += [Check("save and restore", f"pair FMI {v}", lambda c, v=v: restore(c, v)) for v in VERSIONS]
     each = {"communication steps": step_sizes, "bad steps refused": bad_steps, "two instances": interleaved,
-            "other threads": other_threads, "bad parameters refused": bad_parameters}
+            "other threads": other_threads, "two threads at once": at_once, "bad parameters refused": bad_parameters}
     for name, function in each.items():
         found += [Check(name, f"{p} FMI {v}", lambda c, f=function, p=p, v=v: f(c, p, v)) for p, v in subjects()]
     for v in VERSIONS:
