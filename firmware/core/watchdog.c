@@ -1,5 +1,7 @@
 #include "core/watchdog.h"
 
+#include <string.h>
+
 /* Wider than any reading of a healthy sensor, narrow enough to catch a broken frame. */
 #define MAX_JOINT_RAD 3.5
 #define MAX_GYRO_RAD_S 20.0
@@ -29,6 +31,6 @@ int hoap2_watchdog_step(hoap2_state_t *state, const hoap2_inputs_t *inputs) {
   mode->stale_ticks = fresh ? 0 : mode->stale_ticks + 1;
   if (mode->bad_ticks > state->params.stale_limit_ticks) mode->fault |= HOAP2_FAULT_BAD_INPUT;
   if (mode->stale_ticks > state->params.stale_limit_ticks) mode->fault |= HOAP2_FAULT_STALE_INPUT;
-  if (good) state->held = *inputs;
+  if (good) memcpy(&state->held, inputs, HOAP2_INPUTS_BYTES); /* no foreign padding */
   return good;
 }

@@ -25,7 +25,11 @@ def _struct(table: Table, product: str, group: str, tag: str) -> str:
         dims = "".join(f"[{n}]" for n in s.shape)
         unit = f" [{s.unit}]" if s.kind == "real" else ""
         lines.append(f"  {ctype} {s.name}{dims}; /* {s.text}{unit} */")
-    return "typedef struct {\n" + "\n".join(lines) + f"\n}} {tag}_t;\n"
+    last = table.select(product, group)[-1].name
+    # an odd number of ints leaves padding behind them, which a copy of the whole struct would carry along
+    named = (f"/* bytes of its members, without the padding behind the last one */\n"
+             f"#define {tag.upper()}_BYTES (offsetof({tag}_t, {last}) + sizeof(((const {tag}_t *)0)->{last}))\n")
+    return "typedef struct {\n" + "\n".join(lines) + f"\n}} {tag}_t;\n{named}"
 
 
 def _initialiser(s: Signal) -> str:
@@ -86,7 +90,7 @@ def signals_header(table: Table, product: str, prefix: str) -> str:
     body += _defaults(table, product, "input", f"{prefix}_inputs") + "\n"
     body += _defaults(table, product, "parameter", f"{prefix}_params") + "\n"
     body += _ranges(table, product, f"{prefix}_params")
-    includes = "#include <math.h>\n#include <stdint.h>\n"
+    includes = "#include <math.h>\n#include <stddef.h>\n#include <stdint.h>\n"
     if product == "plant":
         includes += '#include "hoap2/generated/signals.h"\n'
     return _guard(f"{prefix.upper()}_GENERATED_SIGNALS_H", body, includes)

@@ -2,6 +2,7 @@
 #ifndef HOAP2_GENERATED_SIGNALS_H
 #define HOAP2_GENERATED_SIGNALS_H
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum { HOAP2_TICK_US = 1000, HOAP2_SCHEMA = 1 };
@@ -35,6 +36,8 @@ typedef struct {
   double cell_force_N[8]; /* foot force cells [N] */
   int32_t sensor_tick; /* counter of sensor frames; a value that stops rising is a stale input */
 } hoap2_inputs_t;
+/* bytes of its members, without the padding behind the last one */
+#define HOAP2_INPUTS_BYTES (offsetof(hoap2_inputs_t, sensor_tick) + sizeof(((const hoap2_inputs_t *)0)->sensor_tick))
 
 typedef struct {
   double q_ref_rad[25]; /* joint angle reference [rad] */
@@ -70,6 +73,8 @@ typedef struct {
   int32_t stance_foot; /* 0 right, 1 left, 2 both */
   int32_t walk_done; /* 1 when the planned walk is finished and the robot stands */
 } hoap2_outputs_t;
+/* bytes of its members, without the padding behind the last one */
+#define HOAP2_OUTPUTS_BYTES (offsetof(hoap2_outputs_t, walk_done) + sizeof(((const hoap2_outputs_t *)0)->walk_done))
 
 typedef struct {
   double start_pos_W_m[2]; /* where the robot starts: the point midway between the soles [m] */
@@ -117,6 +122,8 @@ typedef struct {
   int32_t cop_profile; /* CoP within a step: constant, or a ramp over the first part */
   int32_t stale_limit_ticks; /* watchdog: bad or stale sensor frames that are bridged by holding */
 } hoap2_params_t;
+/* bytes of its members, without the padding behind the last one */
+#define HOAP2_PARAMS_BYTES (offsetof(hoap2_params_t, stale_limit_ticks) + sizeof(((const hoap2_params_t *)0)->stale_limit_ticks))
 
 static inline void hoap2_inputs_defaults(hoap2_inputs_t *p) {
   { static const double v_[25] = {0.0, 0.0, -0.29717399332586975, 0.6951889664830044, -0.3980149731571346, 0.0, 1.5707963267948966, -0.17453292519943295, 0.17453292519943295, -0.4363323129985824, 0.0, 0.0, -0.29717399332586975, 0.6951889664830044, -0.3980149731571346, 0.0, 1.5707963267948966, 0.17453292519943295, -0.17453292519943295, -0.4363323129985824, 0.0, 0.0, 0.0, 0.0, 0.0};

@@ -2,6 +2,7 @@
 #ifndef HOAP2_PLANT_GENERATED_SIGNALS_H
 #define HOAP2_PLANT_GENERATED_SIGNALS_H
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 #include "hoap2/generated/signals.h"
 
@@ -13,6 +14,8 @@ typedef struct {
   double kd_Nms_rad[25]; /* drive damping [N.m.s/rad] */
   int32_t drive_mode[25]; /* drive setting, as the controller's output */
 } hoap2_plant_inputs_t;
+/* bytes of its members, without the padding behind the last one */
+#define HOAP2_PLANT_INPUTS_BYTES (offsetof(hoap2_plant_inputs_t, drive_mode) + sizeof(((const hoap2_plant_inputs_t *)0)->drive_mode))
 
 typedef struct {
   double q_enc_rad[25]; /* joint angles as the encoders count them [rad] */
@@ -39,6 +42,8 @@ typedef struct {
   int32_t plant_tick; /* ticks done */
   int32_t other_contacts; /* contact points of anything but the soles in this tick */
 } hoap2_plant_outputs_t;
+/* bytes of its members, without the padding behind the last one */
+#define HOAP2_PLANT_OUTPUTS_BYTES (offsetof(hoap2_plant_outputs_t, other_contacts) + sizeof(((const hoap2_plant_outputs_t *)0)->other_contacts))
 
 typedef struct {
   double start_pos_W_m[2]; /* where the robot starts: the point midway between the soles [m] */
@@ -71,6 +76,8 @@ typedef struct {
   int32_t block_count; /* number of terrain blocks (steps, edges) */
   int32_t push_link[8]; /* link of each push, in the order of hoap2.json */
 } hoap2_plant_params_t;
+/* bytes of its members, without the padding behind the last one */
+#define HOAP2_PLANT_PARAMS_BYTES (offsetof(hoap2_plant_params_t, push_link) + sizeof(((const hoap2_plant_params_t *)0)->push_link))
 
 static inline void hoap2_plant_inputs_defaults(hoap2_plant_inputs_t *p) {
   { static const double v_[25] = {0.0, 0.0, -0.29717399332586975, 0.6951889664830044, -0.3980149731571346, 0.0, 1.5707963267948966, -0.17453292519943295, 0.17453292519943295, -0.4363323129985824, 0.0, 0.0, -0.29717399332586975, 0.6951889664830044, -0.3980149731571346, 0.0, 1.5707963267948966, 0.17453292519943295, -0.17453292519943295, -0.4363323129985824, 0.0, 0.0, 0.0, 0.0, 0.0};
