@@ -96,32 +96,31 @@ def exit_code(summary: dict) -> int:
     return EXIT_OK if summary["ok"] else EXIT_FAILED
 
 
-def execute(scenario: Scenario, products: Products, folder: RunFolder, console: Console, video: bool = True,
-            quiet: bool = False) -> dict:  # fmt: skip
-    """Run, judge, write every file, give the folder its name; returns the summary."""
+def execute(scenario: Scenario, products: Products, folder: RunFolder, stop: master.StopRequest, console: Console,
+            video: bool = True, quiet: bool = False) -> dict:  # fmt: skip
+    """Run, judge, write every file, give the folder its name; returns the summary.
+
+    A stop request ends the simulation, or leaves out what is still to come after it.
+    """
     title = scenario.name + (f" seed {scenario.seed}" if scenario.seed else "")
     progress = None if quiet else RunProgress(title, scenario.duration_s, scenario.steps_planned, console)
-    with master.StopRequest() as stop:
-        try:
-            outcome = master.run(products.controller, products.plant, ticks_of(scenario),
-                                 scenario.options["stop_after_fall_s"], stop, progress)  # fmt: skip
-        finally:
-            if progress is not None:
-                progress.close()
-        summary = summarise(scenario, outcome)
-        folder.text("run.toml", resolved_toml(scenario, products.files))
-        outcome.log.write(folder.work / "signals.parquet")
-        finished = time.strftime("%Y-%m-%dT%H:%M:%S%z")
-        folder.json("timing.json", outcome.timing.summary() | {"finished": finished})
-        # From here on a stop request only leaves out what is still to come.
-        summary["notes"] = []
-        pictures = _pictures(folder, outcome.log, video, console, quiet, stop, summary["notes"])
-        summary["peak_memory_mb"] = peak_memory_mb()
-        if outcome.log.count:
-            _report(folder, scenario, outcome.log, summary, pictures)
-        folder.json("summary.json", summary)
-        path = folder.finish()
-    return runfolder.jsonable(summary) | {"folder": str(path)}
+    try:
+        outcome = master.run(products.controller, products.plant, ticks_of(scenario),
+                             scenario.options["stop_after_fall_s"], stop, progress)  # fmt: skip
+    finally:
+        if progress is not None:
+            progress.close()
+    summary = summarise(scenario, outcome) | {"notes": []}
+    folder.text("run.toml", resolved_toml(scenario, products.files))
+    outcome.log.write(folder.work / "signals.parquet")
+    finished = time.strftime("%Y-%m-%dT%H:%M:%S%z")
+    folder.json("timing.json", outcome.timing.summary() | {"finished": finished})
+    pictures = _pictures(folder, outcome.log, video, console, quiet, stop, summary["notes"])
+    summary["peak_memory_mb"] = peak_memory_mb()
+    if outcome.log.count:
+        _report(folder, scenario, outcome.log, summary, pictures)
+    folder.json("summary.json", summary)
+    return runfolder.jsonable(summary) | {"folder": str(folder.finish())}
 
 
 def _pictures(folder: RunFolder, log: SignalLog, video: bool, console: Console, quiet: bool,

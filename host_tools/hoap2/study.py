@@ -50,15 +50,16 @@ class Result:
 def run_one(request: Request, loaded: scenario.Scenario, out: str | None, console: Console,
             path: Path | None = None, quiet: bool = False) -> dict:  # fmt: skip
     """One run into its folder (`path`, or from `out`); returns the summary. No folder is left by bad input."""
-    folder = runfolder.RunFolder(path or runfolder.target(loaded.name, out))
-    try:
-        both = products.open_both(request.choice, loaded)
+    with StopRequest() as stop:  # from here on a stop still leaves a whole, marked folder
+        folder = runfolder.RunFolder(path or runfolder.target(loaded.name, out))
         try:
-            return runner.execute(loaded, both, folder, console, request.video, quiet)
+            both = products.open_both(request.choice, loaded)
+            try:
+                return runner.execute(loaded, both, folder, stop, console, request.video, quiet)
+            finally:
+                both.close()
         finally:
-            both.close()
-    finally:
-        folder.discard()  # nothing is left there after `finish`
+            folder.discard()  # nothing is left there after `finish`
 
 
 def _start_worker() -> None:
