@@ -18,7 +18,7 @@ int32_t hoap2_init(hoap2_state_t *state, const hoap2_params_t *params) {
   if (hoap2_params_out_of_range(params) > 0)
     state->mode.fault = HOAP2_FAULT_BAD_PARAMETER;
   else
-    memcpy(&state->params, params, HOAP2_PARAMS_BYTES); /* no foreign padding: states are compared as bytes */
+    memcpy(&state->params, params, HOAP2_PARAMS_BYTES); /* not its padding: states compare as bytes */
   hoap2_gait_reset(&state->params, &state->gait);
   memcpy(state->stance_q_rad, state->gait.q_ref_rad, sizeof state->stance_q_rad);
   if (state->mode.fault == 0) state->mode.fault = hoap2_gait_check_reach(&state->params, &state->gait);
