@@ -156,6 +156,12 @@ def test_positions_are_seen_from_the_start(log, walk):
     assert result["final_error_yaw_deg"] == pytest.approx(0.01 / DEG)
 
 
+@pytest.mark.parametrize(("right_deg", "left_deg", "turn_deg"), [(0, 20, 10), (175, -175, 180), (-30, -10, -20)])
+def test_the_heading_is_midway_between_the_feet(log, walk, right_deg, left_deg, turn_deg):
+    log.block("p.true_foot_yaw_W_rad")[:] = [right_deg * DEG, left_deg * DEG]
+    assert abs(metrics.compute(log, walk)["turn_deg"]) == pytest.approx(abs(turn_deg))
+
+
 @pytest.mark.parametrize(("name", "row", "value"), [
     ("p.true_base_vel_W_m_s", slice(-300, -299), [0.021, 0, 0]),
     ("p.true_foot_force_W_N", slice(-300, -299), [0, 0, 0, 0, 0, 69]),
