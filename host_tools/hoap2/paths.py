@@ -23,14 +23,21 @@ def built(relative: str) -> Path:
     return path
 
 
+def _built_since(library: Path, header: str) -> Path:
+    """The library; an error when the header that lays out its structs has changed since it was built."""
+    if (ROOT / header).stat().st_mtime > library.stat().st_mtime:
+        raise UserError(f"{library} is older than {header}", "build it again: ./hoap2 fmu build", exit_code=3)
+    return library
+
+
 def controller_library() -> Path:
     """The controller's C interface."""
-    return built("firmware/libhoap2_controller.so")
+    return _built_since(built("firmware/libhoap2_controller.so"), "firmware/include/hoap2/generated/signals.h")
 
 
 def plant_library() -> Path:
     """The plant's C interface."""
-    return built("sim/libhoap2_plant.so")
+    return _built_since(built("sim/libhoap2_plant.so"), "sim/include/hoap2_plant/generated/plant_signals.h")
 
 
 def fmu(product: str, fmi: int) -> Path:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 
@@ -145,3 +147,13 @@ def test_no_library_is_said(tmp_path):
     (tmp_path / "broken.so").write_bytes(b"nothing")
     with pytest.raises(UserError, match="cannot load"):
         Controller(library=tmp_path / "broken.so")
+
+
+def test_a_library_older_than_its_table_is_refused(tmp_path, monkeypatch):
+    library = tmp_path / "sim" / "libhoap2_plant.so"
+    library.parent.mkdir()
+    library.write_bytes(b"")
+    os.utime(library, (1e9, 1e9))
+    monkeypatch.setenv("HOAP2_BUILD_DIR", str(tmp_path))
+    with pytest.raises(UserError, match="older than .*plant_signals.h"):
+        Plant()
