@@ -16,7 +16,8 @@ static fmi2Status refuse(fmi2Component c, const char *call, const char *why) {
   return fmi2Error;
 }
 
-static void emit(hoap2_fmu_instance_t *self, hoap2_fmu_category_t category, const char *name, const char *text) {
+static void emit(hoap2_fmu_instance_t *self, hoap2_fmu_category_t category, const char *name,
+                 const char *text) {
   const fmi2CallbackLogger logger = (fmi2CallbackLogger)self->logger;
   const fmi2Status status = category == HOAP2_FMU_LOG_ERROR     ? fmi2Error
                             : category == HOAP2_FMU_LOG_WARNING ? fmi2Warning
@@ -46,7 +47,8 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
   if (!self) return NULL;
   bool ok = true;
   if (name[0] == '\0') ok = hoap2_fmu_error(self, "the instance has no name") == HOAP2_FMU_OK;
-  if (fmuType != fmi2CoSimulation) ok = hoap2_fmu_error(self, "only Co-Simulation is offered") == HOAP2_FMU_OK;
+  if (fmuType != fmi2CoSimulation)
+    ok = hoap2_fmu_error(self, "only Co-Simulation is offered") == HOAP2_FMU_OK;
   if (!fmuGUID || strcmp(fmuGUID, HOAP2_FMU_PRODUCT.token) != 0) {
     ok = hoap2_fmu_error(self, "guid %s is not this FMU's %s", fmuGUID ? fmuGUID : "(null)",
                          HOAP2_FMU_PRODUCT.token) == HOAP2_FMU_OK;
@@ -58,8 +60,8 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
 
 void fmi2FreeInstance(fmi2Component c) { hoap2_fmu_free(c); }
 
-fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance, fmi2Real startTime,
-                               fmi2Boolean stopTimeDefined, fmi2Real stopTime) {
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance,
+                               fmi2Real startTime, fmi2Boolean stopTimeDefined, fmi2Real stopTime) {
   (void)toleranceDefined;
   (void)tolerance;
   REQUIRE(c, HOAP2_FMU_INSTANTIATED);
@@ -105,7 +107,8 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
   return status_of(hoap2_fmu_set(c, false, HOAP2_FMU_REAL, vr, nvr, value, nvr));
 }
 
-fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[]) {
+fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
+                          const fmi2Integer value[]) {
   REQUIRE(c, HOAP2_FMU_CAN_SET);
   return status_of(hoap2_fmu_set(c, false, HOAP2_FMU_INT, vr, nvr, value, nvr));
 }
@@ -128,13 +131,15 @@ fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t 
   return no_such_type(c, __func__, HOAP2_FMU_CAN_GET, nvr);
 }
 
-fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Boolean value[]) {
+fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
+                          const fmi2Boolean value[]) {
   (void)vr;
   (void)value;
   return no_such_type(c, __func__, HOAP2_FMU_CAN_SET, nvr);
 }
 
-fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2String value[]) {
+fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
+                         const fmi2String value[]) {
   (void)vr;
   (void)value;
   return no_such_type(c, __func__, HOAP2_FMU_CAN_SET, nvr);
@@ -162,7 +167,8 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, si
   return status_of(hoap2_fmu_serialized_size(c, FMUstate, size));
 }
 
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byte serializedState[], size_t size) {
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byte serializedState[],
+                                 size_t size) {
   REQUIRE(c, HOAP2_FMU_ANY_MODE);
   return status_of(hoap2_fmu_serialize(c, FMUstate, serializedState, size));
 }
@@ -210,7 +216,8 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *va
 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value) {
   REQUIRE(c, HOAP2_FMU_STEPPING | HOAP2_FMU_TERMINATED);
-  if (s != fmi2LastSuccessfulTime || !value) return refuse(c, __func__, "only fmi2LastSuccessfulTime is known");
+  if (s != fmi2LastSuccessfulTime || !value)
+    return refuse(c, __func__, "only fmi2LastSuccessfulTime is known");
   *value = hoap2_fmu_time_s(c);
   return fmi2OK;
 }

@@ -12,26 +12,20 @@ static fmi2Status refuse(fmi2Component c, const char *call) {
   return fmi2Error;
 }
 
-fmi2Status fmi2EnterEventMode(fmi2Component c) {
-  return refuse(c, __func__);
-}
+fmi2Status fmi2EnterEventMode(fmi2Component c) { return refuse(c, __func__); }
 
 fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *fmi2eventInfo) {
   return refuse(c, __func__);
 }
 
-fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) {
-  return refuse(c, __func__);
-}
+fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) { return refuse(c, __func__); }
 
 fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean noSetFMUStatePriorToCurrentPoint,
                                        fmi2Boolean *enterEventMode, fmi2Boolean *terminateSimulation) {
   return refuse(c, __func__);
 }
 
-fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
-  return refuse(c, __func__);
-}
+fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) { return refuse(c, __func__); }
 
 fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t nx) {
   return refuse(c, __func__);
@@ -45,9 +39,7 @@ fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real eventIndicators[], s
   return refuse(c, __func__);
 }
 
-fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t nx) {
-  return refuse(c, __func__);
-}
+fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t nx) { return refuse(c, __func__); }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x_nominal[], size_t nx) {
   return refuse(c, __func__);

@@ -10,7 +10,8 @@ static fmi3Status status_of(hoap2_fmu_status_t status) { return status == HOAP2_
 #define REQUIRE(instance, modes) \
   if (!hoap2_fmu_allowed(instance, __func__, modes)) return fmi3Error
 
-static void emit(hoap2_fmu_instance_t *self, hoap2_fmu_category_t category, const char *name, const char *text) {
+static void emit(hoap2_fmu_instance_t *self, hoap2_fmu_category_t category, const char *name,
+                 const char *text) {
   const fmi3LogMessageCallback logger = (fmi3LogMessageCallback)self->logger;
   const fmi3Status status = category == HOAP2_FMU_LOG_ERROR     ? fmi3Error
                             : category == HOAP2_FMU_LOG_WARNING ? fmi3Warning
@@ -61,8 +62,9 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String ins
 
 void fmi3FreeInstance(fmi3Instance instance) { hoap2_fmu_free(instance); }
 
-fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined, fmi3Float64 tolerance,
-                                       fmi3Float64 startTime, fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
+fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined,
+                                       fmi3Float64 tolerance, fmi3Float64 startTime,
+                                       fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
   (void)toleranceDefined;
   (void)tolerance;
   REQUIRE(instance, HOAP2_FMU_INSTANTIATED);
@@ -89,30 +91,32 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
 
 /* --- values --- */
 
-fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                          fmi3Float64 values[], size_t nValues) {
+fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[],
+                          size_t nValueReferences, fmi3Float64 values[], size_t nValues) {
   REQUIRE(instance, HOAP2_FMU_CAN_GET);
   return status_of(
       hoap2_fmu_get(instance, true, HOAP2_FMU_REAL, valueReferences, nValueReferences, values, nValues));
 }
 
-fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        fmi3Int32 values[], size_t nValues) {
+fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[],
+                        size_t nValueReferences, fmi3Int32 values[], size_t nValues) {
   REQUIRE(instance, HOAP2_FMU_CAN_GET);
-  return status_of(hoap2_fmu_get(instance, true, HOAP2_FMU_INT, valueReferences, nValueReferences, values, nValues));
+  return status_of(
+      hoap2_fmu_get(instance, true, HOAP2_FMU_INT, valueReferences, nValueReferences, values, nValues));
 }
 
-fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                          const fmi3Float64 values[], size_t nValues) {
+fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[],
+                          size_t nValueReferences, const fmi3Float64 values[], size_t nValues) {
   REQUIRE(instance, HOAP2_FMU_CAN_SET);
   return status_of(
       hoap2_fmu_set(instance, true, HOAP2_FMU_REAL, valueReferences, nValueReferences, values, nValues));
 }
 
-fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        const fmi3Int32 values[], size_t nValues) {
+fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[],
+                        size_t nValueReferences, const fmi3Int32 values[], size_t nValues) {
   REQUIRE(instance, HOAP2_FMU_CAN_SET);
-  return status_of(hoap2_fmu_set(instance, true, HOAP2_FMU_INT, valueReferences, nValueReferences, values, nValues));
+  return status_of(
+      hoap2_fmu_set(instance, true, HOAP2_FMU_INT, valueReferences, nValueReferences, values, nValues));
 }
 
 /* --- states --- */
@@ -151,15 +155,17 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte seriali
 
 /* --- stepping --- */
 
-fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoint, fmi3Float64 communicationStepSize,
-                      fmi3Boolean noSetFMUStatePriorToCurrentPoint, fmi3Boolean *eventHandlingNeeded,
-                      fmi3Boolean *terminateSimulation, fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
+fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoint,
+                      fmi3Float64 communicationStepSize, fmi3Boolean noSetFMUStatePriorToCurrentPoint,
+                      fmi3Boolean *eventHandlingNeeded, fmi3Boolean *terminateSimulation,
+                      fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
   (void)noSetFMUStatePriorToCurrentPoint;
   REQUIRE(instance, HOAP2_FMU_STEPPING);
   if (eventHandlingNeeded) *eventHandlingNeeded = fmi3False;
   if (terminateSimulation) *terminateSimulation = fmi3False;
   if (earlyReturn) *earlyReturn = fmi3False;
-  const hoap2_fmu_status_t status = hoap2_fmu_do_step(instance, currentCommunicationPoint, communicationStepSize);
+  const hoap2_fmu_status_t status =
+      hoap2_fmu_do_step(instance, currentCommunicationPoint, communicationStepSize);
   if (lastSuccessfulTime) *lastSuccessfulTime = hoap2_fmu_time_s(instance);
   return status_of(status);
 }

@@ -22,12 +22,11 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String in
   return NULL;
 }
 
-fmi3Instance fmi3InstantiateScheduledExecution(fmi3String instanceName, fmi3String instantiationToken,
-                                               fmi3String resourcePath, fmi3Boolean visible, fmi3Boolean loggingOn,
-                                               fmi3InstanceEnvironment instanceEnvironment,
-                                               fmi3LogMessageCallback logMessage, fmi3ClockUpdateCallback clockUpdate,
-                                               fmi3LockPreemptionCallback lockPreemption,
-                                               fmi3UnlockPreemptionCallback unlockPreemption) {
+fmi3Instance fmi3InstantiateScheduledExecution(
+    fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath, fmi3Boolean visible,
+    fmi3Boolean loggingOn, fmi3InstanceEnvironment instanceEnvironment, fmi3LogMessageCallback logMessage,
+    fmi3ClockUpdateCallback clockUpdate, fmi3LockPreemptionCallback lockPreemption,
+    fmi3UnlockPreemptionCallback unlockPreemption) {
   if (loggingOn && logMessage) {
     logMessage(instanceEnvironment, fmi3Error, "logStatusError", "only Co-Simulation is offered");
   }
@@ -41,14 +40,14 @@ static fmi3Status no_such_type(fmi3Instance instance, const char *call, unsigned
   return count == 0 ? fmi3OK : refuse(instance, call, "there are no variables of this type");
 }
 
-#define NO_VARIABLES(type)                                                                                     \
-  fmi3Status fmi3Get##type(fmi3Instance instance, const fmi3ValueReference references[], size_t count,         \
-                           fmi3##type values[], size_t value_count) {                                          \
-    return no_such_type(instance, __func__, HOAP2_FMU_CAN_GET, count);                                         \
-  }                                                                                                            \
-  fmi3Status fmi3Set##type(fmi3Instance instance, const fmi3ValueReference references[], size_t count,         \
-                           const fmi3##type values[], size_t value_count) {                                    \
-    return no_such_type(instance, __func__, HOAP2_FMU_CAN_SET, count);                                         \
+#define NO_VARIABLES(type)                                                                             \
+  fmi3Status fmi3Get##type(fmi3Instance instance, const fmi3ValueReference references[], size_t count, \
+                           fmi3##type values[], size_t value_count) {                                  \
+    return no_such_type(instance, __func__, HOAP2_FMU_CAN_GET, count);                                 \
+  }                                                                                                    \
+  fmi3Status fmi3Set##type(fmi3Instance instance, const fmi3ValueReference references[], size_t count, \
+                           const fmi3##type values[], size_t value_count) {                            \
+    return no_such_type(instance, __func__, HOAP2_FMU_CAN_SET, count);                                 \
   }
 
 NO_VARIABLES(Float32)
@@ -62,23 +61,24 @@ NO_VARIABLES(UInt64)
 NO_VARIABLES(Boolean)
 NO_VARIABLES(String)
 
-fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                         size_t valueSizes[], fmi3Binary values[], size_t nValues) {
+fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[],
+                         size_t nValueReferences, size_t valueSizes[], fmi3Binary values[], size_t nValues) {
   return no_such_type(instance, __func__, HOAP2_FMU_CAN_GET, nValueReferences);
 }
 
-fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                         const size_t valueSizes[], const fmi3Binary values[], size_t nValues) {
+fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[],
+                         size_t nValueReferences, const size_t valueSizes[], const fmi3Binary values[],
+                         size_t nValues) {
   return no_such_type(instance, __func__, HOAP2_FMU_CAN_SET, nValueReferences);
 }
 
-fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        fmi3Clock values[]) {
+fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
+                        size_t nValueReferences, fmi3Clock values[]) {
   return no_such_type(instance, __func__, HOAP2_FMU_CAN_GET, nValueReferences);
 }
 
-fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        const fmi3Clock values[]) {
+fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
+                        size_t nValueReferences, const fmi3Clock values[]) {
   return no_such_type(instance, __func__, HOAP2_FMU_CAN_SET, nValueReferences);
 }
 

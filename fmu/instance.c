@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const char *const CATEGORY_NAMES[HOAP2_FMU_LOG_CATEGORIES] = {"logStatusError", "logStatusWarning",
-                                                                      "logEvents"};
+                                                                     "logEvents"};
 /* Communication points that an importer adds up in floating point may be off by this part of a tick. */
 static const double TICK_TOLERANCE = 1e-3;
 static const double MAX_TICKS_PER_STEP = 1e9;
@@ -49,10 +49,11 @@ void hoap2_fmu_free(hoap2_fmu_instance_t *self) {
   free(self);
 }
 
-static void log_v(hoap2_fmu_instance_t *self, hoap2_fmu_category_t category, const char *format, va_list values)
-    __attribute__((format(printf, 3, 0)));
+static void log_v(hoap2_fmu_instance_t *self, hoap2_fmu_category_t category, const char *format,
+                  va_list values) __attribute__((format(printf, 3, 0)));
 
-static void log_v(hoap2_fmu_instance_t *self, hoap2_fmu_category_t category, const char *format, va_list values) {
+static void log_v(hoap2_fmu_instance_t *self, hoap2_fmu_category_t category, const char *format,
+                  va_list values) {
   if (!self->logging_on || !self->logger || !(self->categories & (1u << category))) return;
   char text[512];
   vsnprintf(text, sizeof text, format, values);
@@ -105,7 +106,8 @@ bool hoap2_fmu_allowed(hoap2_fmu_instance_t *self, const char *call, unsigned mo
   return false;
 }
 
-hoap2_fmu_status_t hoap2_fmu_set_times(hoap2_fmu_instance_t *self, double start_s, bool stop_defined, double stop_s) {
+hoap2_fmu_status_t hoap2_fmu_set_times(hoap2_fmu_instance_t *self, double start_s, bool stop_defined,
+                                       double stop_s) {
   if (!isfinite(start_s)) return hoap2_fmu_error(self, "start time %g s is not a finite number", start_s);
   if (stop_defined && !(stop_s >= start_s)) {
     return hoap2_fmu_error(self, "stop time %g s lies before start time %g s", stop_s, start_s);
@@ -168,7 +170,8 @@ static int64_t ticks_of_step(hoap2_fmu_instance_t *self, double now_s, double st
   const double ticks = round(step_s / tick_s());
   if (!(ticks >= 1.0 && ticks <= MAX_TICKS_PER_STEP) ||
       !(fabs(step_s - ticks * tick_s()) <= TICK_TOLERANCE * tick_s() + rounding_s)) {
-    hoap2_fmu_error(self, "a step of %.9g s is not a whole positive number of ticks of %g s", step_s, tick_s());
+    hoap2_fmu_error(self, "a step of %.9g s is not a whole positive number of ticks of %g s", step_s,
+                    tick_s());
     return 0;
   }
   if (here_s + ticks * tick_s() > self->stop_time_s + 0.5 * tick_s()) {
@@ -186,9 +189,11 @@ hoap2_fmu_status_t hoap2_fmu_do_step(hoap2_fmu_instance_t *self, double now_s, d
   if (ticks > 1) hoap2_product_get_state(self->model, self->undo);
   for (int64_t i = 0; i < ticks; ++i) {
     if (hoap2_product_step(self->model, self->group[HOAP2_FMU_INPUT]) == 0) continue;
-    hoap2_fmu_error(self, "tick %lld failed: %s", (long long)(self->tick + i), hoap2_product_error(self->model));
+    hoap2_fmu_error(self, "tick %lld failed: %s", (long long)(self->tick + i),
+                    hoap2_product_error(self->model));
     if (i > 0 && hoap2_product_set_state(self->model, self->undo) != 0) {
-      hoap2_fmu_error(self, "the state before the step could not be restored: %s", hoap2_product_error(self->model));
+      hoap2_fmu_error(self, "the state before the step could not be restored: %s",
+                      hoap2_product_error(self->model));
     }
     return HOAP2_FMU_ERROR;
   }

@@ -24,7 +24,11 @@ enum {
 
 typedef enum { HOAP2_FMU_OK = 0, HOAP2_FMU_ERROR = 1 } hoap2_fmu_status_t;
 
-typedef enum { HOAP2_FMU_LOG_ERROR = 0, HOAP2_FMU_LOG_WARNING = 1, HOAP2_FMU_LOG_EVENT = 2 } hoap2_fmu_category_t;
+typedef enum {
+  HOAP2_FMU_LOG_ERROR = 0,
+  HOAP2_FMU_LOG_WARNING = 1,
+  HOAP2_FMU_LOG_EVENT = 2
+} hoap2_fmu_category_t;
 
 enum { HOAP2_FMU_LOG_CATEGORIES = 3, HOAP2_FMU_LOG_ALL = 7 };
 
@@ -68,7 +72,8 @@ hoap2_fmu_status_t hoap2_fmu_set_logging(hoap2_fmu_instance_t *self, bool loggin
 /* True when self is an instance in one of the allowed states; else logs the reason. */
 bool hoap2_fmu_allowed(hoap2_fmu_instance_t *self, const char *call, unsigned modes);
 
-hoap2_fmu_status_t hoap2_fmu_set_times(hoap2_fmu_instance_t *self, double start_s, bool stop_defined, double stop_s);
+hoap2_fmu_status_t hoap2_fmu_set_times(hoap2_fmu_instance_t *self, double start_s, bool stop_defined,
+                                       double stop_s);
 hoap2_fmu_status_t hoap2_fmu_enter_initialisation(hoap2_fmu_instance_t *self);
 hoap2_fmu_status_t hoap2_fmu_exit_initialisation(hoap2_fmu_instance_t *self);
 void hoap2_fmu_reset(hoap2_fmu_instance_t *self);
@@ -78,10 +83,11 @@ hoap2_fmu_status_t hoap2_fmu_do_step(hoap2_fmu_instance_t *self, double now_s, d
 
 /* values.c: by FMI 2 scalars (one reference an element) or FMI 3 rows (all elements of each).
  * Either all values are set or none. values: double or int32_t, as kind says. */
-hoap2_fmu_status_t hoap2_fmu_get(hoap2_fmu_instance_t *self, bool by_row, int kind, const unsigned *references,
-                                 size_t count, void *values, size_t value_count);
-hoap2_fmu_status_t hoap2_fmu_set(hoap2_fmu_instance_t *self, bool by_row, int kind, const unsigned *references,
-                                 size_t count, const void *values, size_t value_count);
+hoap2_fmu_status_t hoap2_fmu_get(hoap2_fmu_instance_t *self, bool by_row, int kind,
+                                 const unsigned *references, size_t count, void *values, size_t value_count);
+hoap2_fmu_status_t hoap2_fmu_set(hoap2_fmu_instance_t *self, bool by_row, int kind,
+                                 const unsigned *references, size_t count, const void *values,
+                                 size_t value_count);
 /* First parameter outside its range is logged by name. */
 hoap2_fmu_status_t hoap2_fmu_check_parameters(hoap2_fmu_instance_t *self, const void *params);
 /* Make model and outputs those of the present parameters. */
@@ -92,7 +98,9 @@ hoap2_fmu_status_t hoap2_fmu_get_state(hoap2_fmu_instance_t *self, void **state)
 hoap2_fmu_status_t hoap2_fmu_set_state(hoap2_fmu_instance_t *self, const void *state);
 hoap2_fmu_status_t hoap2_fmu_free_state(hoap2_fmu_instance_t *self, void **state);
 hoap2_fmu_status_t hoap2_fmu_serialized_size(hoap2_fmu_instance_t *self, const void *state, size_t *size);
-hoap2_fmu_status_t hoap2_fmu_serialize(hoap2_fmu_instance_t *self, const void *state, void *bytes, size_t size);
-hoap2_fmu_status_t hoap2_fmu_deserialize(hoap2_fmu_instance_t *self, const void *bytes, size_t size, void **state);
+hoap2_fmu_status_t hoap2_fmu_serialize(hoap2_fmu_instance_t *self, const void *state, void *bytes,
+                                       size_t size);
+hoap2_fmu_status_t hoap2_fmu_deserialize(hoap2_fmu_instance_t *self, const void *bytes, size_t size,
+                                         void **state);
 
 #endif

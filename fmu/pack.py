@@ -62,8 +62,17 @@ def place_of(path: Path, eigen: Path) -> str | None:
 
 def source_files(fmi: str, compiler: str, firmware: list[str], eigen: Path) -> tuple[dict[str, bytes], list[str]]:
     """Content of sources/ and the names of the translation units, for both kinds of description."""
-    shell = [FMU / f for f in ("instance.c", "values.c", "snapshot.c", f"fmi{fmi}.c", f"fmi{fmi}_unsupported.c",
-                               "products/controller.c")]
+    shell = [
+        FMU / f
+        for f in (
+            "instance.c",
+            "values.c",
+            "snapshot.c",
+            f"fmi{fmi}.c",
+            f"fmi{fmi}_unsupported.c",
+            "products/controller.c",
+        )
+    ]
     units = [Path(f).resolve() for f in firmware] + shell
     include = [str(ROOT / "firmware" / "include"), str(ROOT / "firmware"), str(eigen)]
     files: dict[str, bytes] = {}
@@ -84,11 +93,13 @@ def source_files(fmi: str, compiler: str, firmware: list[str], eigen: Path) -> t
 
 def build_description(units: list[str]) -> str:
     inner = "\n".join(f"      <SourceFile name={quoteattr(name)}/>" for name in units)
-    return ('<?xml version="1.0" encoding="UTF-8"?>\n<fmiBuildDescription fmiVersion="3.0">\n'
-            '  <BuildConfiguration modelIdentifier="hoap2_controller" description="Shared library of the controller">\n'
-            '    <SourceFileSet name="all" language="C++17">\n'
-            f"{inner}\n"
-            '      <IncludeDirectory name="."/>\n    </SourceFileSet>\n  </BuildConfiguration>\n</fmiBuildDescription>\n')
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n<fmiBuildDescription fmiVersion="3.0">\n'
+        '  <BuildConfiguration modelIdentifier="hoap2_controller" description="Shared library of the controller">\n'
+        '    <SourceFileSet name="all" language="C++17">\n'
+        f"{inner}\n"
+        '      <IncludeDirectory name="."/>\n    </SourceFileSet>\n  </BuildConfiguration>\n</fmiBuildDescription>\n'
+    )
 
 
 def licences(product: str, with_eigen: bool) -> dict[str, bytes]:

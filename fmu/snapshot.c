@@ -74,7 +74,8 @@ static const char *header_fault(const header_t *found) {
   if (memcmp(found->magic, expected.magic, sizeof expected.magic) != 0) return "it is not a HOAP-2 state";
   if (found->version != expected.version || found->reserved != 0) return "its format has another version";
   if (found->byte_order != expected.byte_order) return "its byte order is another machine's";
-  if (memcmp(found->product, expected.product, sizeof expected.product) != 0) return "it belongs to another product";
+  if (memcmp(found->product, expected.product, sizeof expected.product) != 0)
+    return "it belongs to another product";
   if (found->schema != expected.schema || memcmp(found->token, expected.token, sizeof expected.token) != 0) {
     return "it was made with another table of signals";
   }
@@ -84,7 +85,8 @@ static const char *header_fault(const header_t *found) {
 
 hoap2_fmu_status_t hoap2_fmu_get_state(hoap2_fmu_instance_t *self, void **state) {
   if (!state) return hoap2_fmu_error(self, "get state: NULL pointer");
-  if (*state && header_fault(*state)) return hoap2_fmu_error(self, "get state: the given state is not one of this FMU");
+  if (*state && header_fault(*state))
+    return hoap2_fmu_error(self, "get state: the given state is not one of this FMU");
   if (!*state) *state = calloc(1, snapshot_size());
   if (!*state) return hoap2_fmu_error(self, "get state: out of memory");
   snapshot_t *snapshot = *state;
@@ -148,7 +150,8 @@ hoap2_fmu_status_t hoap2_fmu_serialized_size(hoap2_fmu_instance_t *self, const v
   return HOAP2_FMU_OK;
 }
 
-hoap2_fmu_status_t hoap2_fmu_serialize(hoap2_fmu_instance_t *self, const void *state, void *bytes, size_t size) {
+hoap2_fmu_status_t hoap2_fmu_serialize(hoap2_fmu_instance_t *self, const void *state, void *bytes,
+                                       size_t size) {
   if (!state || !bytes) return hoap2_fmu_error(self, "serialize: NULL pointer");
   const char *fault = header_fault(state);
   if (fault) return hoap2_fmu_error(self, "serialize: %s", fault);
@@ -166,13 +169,17 @@ hoap2_fmu_status_t hoap2_fmu_serialize(hoap2_fmu_instance_t *self, const void *s
 static bool fields_plausible(const fields_t *fields) {
   const bool mode_ok = fields->mode == HOAP2_FMU_INSTANTIATED || fields->mode == HOAP2_FMU_INITIALISING ||
                        fields->mode == HOAP2_FMU_STEPPING || fields->mode == HOAP2_FMU_TERMINATED;
-  const bool ready_ok = fields->model_ready == 1 || (fields->model_ready == 0 && fields->mode != HOAP2_FMU_STEPPING);
-  return mode_ok && ready_ok && fields->tick >= 0 && isfinite(fields->start_time_s) && !isnan(fields->stop_time_s);
+  const bool ready_ok =
+      fields->model_ready == 1 || (fields->model_ready == 0 && fields->mode != HOAP2_FMU_STEPPING);
+  return mode_ok && ready_ok && fields->tick >= 0 && isfinite(fields->start_time_s) &&
+         !isnan(fields->stop_time_s);
 }
 
-hoap2_fmu_status_t hoap2_fmu_deserialize(hoap2_fmu_instance_t *self, const void *bytes, size_t size, void **state) {
+hoap2_fmu_status_t hoap2_fmu_deserialize(hoap2_fmu_instance_t *self, const void *bytes, size_t size,
+                                         void **state) {
   if (!state || !bytes) return hoap2_fmu_error(self, "deserialize: NULL pointer");
-  if (size < sizeof(header_t)) return hoap2_fmu_error(self, "deserialize: %zu bytes are too few for a state", size);
+  if (size < sizeof(header_t))
+    return hoap2_fmu_error(self, "deserialize: %zu bytes are too few for a state", size);
   header_t header;
   memcpy(&header, bytes, sizeof header);
   const char *fault = header_fault(&header);

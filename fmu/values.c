@@ -20,7 +20,8 @@ static char *element_address(void *group, const hoap2_fmu_field_t *field, uint32
 /* Row that holds element `reference` (from 1), or NULL. */
 static const hoap2_fmu_field_t *row_of_element(unsigned reference) {
   if (reference == 0 || reference > HOAP2_FMU_PRODUCT.element_count) return NULL;
-  uint32_t low = 0, high = HOAP2_FMU_PRODUCT.field_count; /* first_element of low <= reference < that of high */
+  uint32_t low = 0,
+           high = HOAP2_FMU_PRODUCT.field_count; /* first_element of low <= reference < that of high */
   while (high - low > 1) {
     const uint32_t middle = low + (high - low) / 2;
     if (HOAP2_FMU_PRODUCT.fields[middle].first_element <= reference) {
@@ -53,8 +54,8 @@ static bool find(hoap2_fmu_instance_t *self, bool by_row, int kind, const unsign
     span->used = run;
   }
   if (span->field && span->field->kind == kind) return true;
-  hoap2_fmu_error(self, "there is no %s variable with value reference %u", kind == HOAP2_FMU_REAL ? "real" : "integer",
-                  first);
+  hoap2_fmu_error(self, "there is no %s variable with value reference %u",
+                  kind == HOAP2_FMU_REAL ? "real" : "integer", first);
   return false;
 }
 
@@ -64,7 +65,8 @@ static const char *name_of(bool by_row, const span_t *span) {
 }
 
 /* Bounds of an array argument: NULL only when empty. */
-static bool arguments_ok(hoap2_fmu_instance_t *self, const void *references, size_t count, const void *values) {
+static bool arguments_ok(hoap2_fmu_instance_t *self, const void *references, size_t count,
+                         const void *values) {
   if (count == 0 || (references && values)) return true;
   hoap2_fmu_error(self, "value references or values are NULL");
   return false;
@@ -81,8 +83,8 @@ static bool is_time(bool by_row, int kind, unsigned reference) {
   return by_row && kind == HOAP2_FMU_REAL && reference == 0;
 }
 
-hoap2_fmu_status_t hoap2_fmu_get(hoap2_fmu_instance_t *self, bool by_row, int kind, const unsigned *references,
-                                 size_t count, void *values, size_t value_count) {
+hoap2_fmu_status_t hoap2_fmu_get(hoap2_fmu_instance_t *self, bool by_row, int kind,
+                                 const unsigned *references, size_t count, void *values, size_t value_count) {
   if (!arguments_ok(self, references, count, values)) return HOAP2_FMU_ERROR;
   span_t span = {NULL, 0, 0, 0};
   size_t total = 0;
@@ -124,7 +126,8 @@ static bool may_set(hoap2_fmu_instance_t *self, bool by_row, const span_t *span)
     return false;
   }
   if (self->mode != HOAP2_FMU_STEPPING || field->tunable) return true;
-  hoap2_fmu_error(self, "%s is fixed: it can be set only before the end of initialisation", name_of(by_row, span));
+  hoap2_fmu_error(self, "%s is fixed: it can be set only before the end of initialisation",
+                  name_of(by_row, span));
   return false;
 }
 
@@ -150,14 +153,16 @@ static hoap2_fmu_status_t tune(hoap2_fmu_instance_t *self) {
   return HOAP2_FMU_OK;
 }
 
-hoap2_fmu_status_t hoap2_fmu_set(hoap2_fmu_instance_t *self, bool by_row, int kind, const unsigned *references,
-                                 size_t count, const void *values, size_t value_count) {
+hoap2_fmu_status_t hoap2_fmu_set(hoap2_fmu_instance_t *self, bool by_row, int kind,
+                                 const unsigned *references, size_t count, const void *values,
+                                 size_t value_count) {
   if (!arguments_ok(self, references, count, values)) return HOAP2_FMU_ERROR;
   span_t span = {NULL, 0, 0, 0};
   size_t total = 0;
   bool parameters = false;
   for (size_t i = 0; i < count; i += span.used) {
-    if (!find(self, by_row, kind, references + i, count - i, &span) || !may_set(self, by_row, &span)) return HOAP2_FMU_ERROR;
+    if (!find(self, by_row, kind, references + i, count - i, &span) || !may_set(self, by_row, &span))
+      return HOAP2_FMU_ERROR;
     parameters = parameters || span.field->group == HOAP2_FMU_PARAMETER;
     total += span.count;
   }

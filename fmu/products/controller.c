@@ -49,7 +49,8 @@ int hoap2_product_init(void *model, const void *params) {
   model_t *self = model;
   const int32_t faults = hoap2_init(self->state, params);
   if (faults == 0) return 0;
-  snprintf(self->error, sizeof self->error, "the controller cannot use these parameters (fault bits %d)", (int)faults);
+  snprintf(self->error, sizeof self->error, "the controller cannot use these parameters (fault bits %d)",
+           (int)faults);
   return 1;
 }
 

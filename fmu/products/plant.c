@@ -1,9 +1,10 @@
 /* The plant behind the FMI shells. */
+#include "hoap2_plant/plant.h"
+
 #include <string.h>
 
 #include "../generated/plant_fields.h"
 #include "../product.h"
-#include "hoap2_plant/plant.h"
 
 const hoap2_fmu_product_t HOAP2_FMU_PRODUCT = {
     .name = "hoap2_plant",

@@ -32,6 +32,7 @@ inline bool is_controller() { return std::string(HOAP2_FMU_PRODUCT.name) == "hoa
 
 inline unsigned tunable_fields() {
   unsigned count = 0;
-  for (uint32_t i = 0; i < HOAP2_FMU_PRODUCT.field_count; ++i) count += HOAP2_FMU_PRODUCT.fields[i].tunable ? 1 : 0;
+  for (uint32_t i = 0; i < HOAP2_FMU_PRODUCT.field_count; ++i)
+    count += HOAP2_FMU_PRODUCT.fields[i].tunable ? 1 : 0;
   return count;
 }

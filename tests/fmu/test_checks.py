@@ -28,12 +28,15 @@ def test_check(check: Check, context: Context) -> None:
     assert check.run(context)
 
 
-def test_a_check_that_breaks_is_a_failure_and_the_others_go_on(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_check_that_breaks_is_a_failure_and_the_others_go_on(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def explode(_: Context) -> str:
         raise RuntimeError("boom")
 
-    monkeypatch.setattr(fmu_check, "all_checks",
-                        lambda quick: [Check("first", "x", explode), Check("second", "x", lambda c: "fine")])
+    monkeypatch.setattr(
+        fmu_check, "all_checks", lambda quick: [Check("first", "x", explode), Check("second", "x", lambda c: "fine")]
+    )
     first, second = fmu_check.run_checks(context)
     assert not first.ok and "boom" in first.detail
     assert second.ok and second.detail == "fine"

@@ -20,14 +20,16 @@ struct Line {
 };
 std::vector<Line> log_lines;
 
-void keep(fmi2ComponentEnvironment, fmi2String, fmi2Status status, fmi2String category, fmi2String message, ...) {
+void keep(fmi2ComponentEnvironment, fmi2String, fmi2Status status, fmi2String category, fmi2String message,
+          ...) {
   log_lines.push_back({status, category, message});
 }
 
 const fmi2CallbackFunctions CALLBACKS = {keep, nullptr, nullptr, nullptr, nullptr};
 
 fmi2Component make(fmi2Boolean logging = fmi2True) {
-  return fmi2Instantiate("test", fmi2CoSimulation, HOAP2_FMU_PRODUCT.token, "", &CALLBACKS, fmi2False, logging);
+  return fmi2Instantiate("test", fmi2CoSimulation, HOAP2_FMU_PRODUCT.token, "", &CALLBACKS, fmi2False,
+                         logging);
 }
 
 enum Mode { INSTANTIATED, INITIALISING, STEPPING, TERMINATED };
@@ -36,9 +38,15 @@ const Mode MODES[] = {INSTANTIATED, INITIALISING, STEPPING, TERMINATED};
 fmi2Component make_in(Mode mode) {
   fmi2Component c = make();
   EXPECT_EQ(fmi2SetupExperiment(c, fmi2False, 0, 0, fmi2False, 0), fmi2OK);
-  if (mode >= INITIALISING) { EXPECT_EQ(fmi2EnterInitializationMode(c), fmi2OK); }
-  if (mode >= STEPPING) { EXPECT_EQ(fmi2ExitInitializationMode(c), fmi2OK); }
-  if (mode >= TERMINATED) { EXPECT_EQ(fmi2Terminate(c), fmi2OK); }
+  if (mode >= INITIALISING) {
+    EXPECT_EQ(fmi2EnterInitializationMode(c), fmi2OK);
+  }
+  if (mode >= STEPPING) {
+    EXPECT_EQ(fmi2ExitInitializationMode(c), fmi2OK);
+  }
+  if (mode >= TERMINATED) {
+    EXPECT_EQ(fmi2Terminate(c), fmi2OK);
+  }
   log_lines.clear();
   return c;
 }
@@ -70,7 +78,8 @@ std::vector<Call> calls() {
   static fmi2Real real = 0.0;
   static fmi2Integer integer = 1;
   static fmi2Boolean flag = 0;
-  const std::vector<Mode> get = {INITIALISING, STEPPING, TERMINATED}, set = {INSTANTIATED, INITIALISING, STEPPING};
+  const std::vector<Mode> get = {INITIALISING, STEPPING, TERMINATED},
+                          set = {INSTANTIATED, INITIALISING, STEPPING};
   return {
       {"SetupExperiment", {INSTANTIATED}, [](auto c) { return fmi2SetupExperiment(c, 0, 0, 0, 0, 0); }},
       {"EnterInitializationMode", {INSTANTIATED}, [](auto c) { return fmi2EnterInitializationMode(c); }},
@@ -85,10 +94,16 @@ std::vector<Call> calls() {
       {"SetInteger", set, [](auto c) { return fmi2SetInteger(c, &in_int, 1, &integer); }},
       {"SetBoolean", set, [](auto c) { return fmi2SetBoolean(c, nullptr, 0, nullptr); }},
       {"SetString", set, [](auto c) { return fmi2SetString(c, nullptr, 0, nullptr); }},
-      {"SetReal(fixed parameter)", {INSTANTIATED, INITIALISING}, [](auto c) { return fmi2SetReal(c, &fixed, 1, &real); }},
+      {"SetReal(fixed parameter)",
+       {INSTANTIATED, INITIALISING},
+       [](auto c) { return fmi2SetReal(c, &fixed, 1, &real); }},
       {"SetReal(output)", {}, [](auto c) { return fmi2SetReal(c, &out, 1, &real); }},
-      {"GetRealStatus", {STEPPING, TERMINATED}, [](auto c) { return fmi2GetRealStatus(c, fmi2LastSuccessfulTime, &real); }},
-      {"GetBooleanStatus", {STEPPING, TERMINATED}, [](auto c) { return fmi2GetBooleanStatus(c, fmi2Terminated, &flag); }},
+      {"GetRealStatus",
+       {STEPPING, TERMINATED},
+       [](auto c) { return fmi2GetRealStatus(c, fmi2LastSuccessfulTime, &real); }},
+      {"GetBooleanStatus",
+       {STEPPING, TERMINATED},
+       [](auto c) { return fmi2GetBooleanStatus(c, fmi2Terminated, &flag); }},
   };
 }
 
@@ -102,8 +117,12 @@ std::vector<Call> unsupported() {
   static const unsigned reference = 1;
   return {
       {"CancelStep", {}, [](auto c) { return fmi2CancelStep(c); }},
-      {"SetRealInputDerivatives", {}, [](auto c) { return fmi2SetRealInputDerivatives(c, &reference, 1, &integer, real); }},
-      {"GetRealOutputDerivatives", {}, [](auto c) { return fmi2GetRealOutputDerivatives(c, &reference, 1, &integer, real); }},
+      {"SetRealInputDerivatives",
+       {},
+       [](auto c) { return fmi2SetRealInputDerivatives(c, &reference, 1, &integer, real); }},
+      {"GetRealOutputDerivatives",
+       {},
+       [](auto c) { return fmi2GetRealOutputDerivatives(c, &reference, 1, &integer, real); }},
       {"GetStatus", {}, [](auto c) { return fmi2GetStatus(c, fmi2DoStepStatus, &status); }},
       {"GetIntegerStatus", {}, [](auto c) { return fmi2GetIntegerStatus(c, fmi2DoStepStatus, &integer); }},
       {"GetStringStatus", {}, [](auto c) { return fmi2GetStringStatus(c, fmi2PendingStatus, &text); }},
@@ -118,8 +137,11 @@ std::vector<Call> unsupported() {
       {"GetDerivatives", {}, [](auto c) { return fmi2GetDerivatives(c, real, 1); }},
       {"GetEventIndicators", {}, [](auto c) { return fmi2GetEventIndicators(c, real, 1); }},
       {"GetContinuousStates", {}, [](auto c) { return fmi2GetContinuousStates(c, real, 1); }},
-      {"GetNominalsOfContinuousStates", {}, [](auto c) { return fmi2GetNominalsOfContinuousStates(c, real, 1); }},
-      {"GetDirectionalDerivative", {},
+      {"GetNominalsOfContinuousStates",
+       {},
+       [](auto c) { return fmi2GetNominalsOfContinuousStates(c, real, 1); }},
+      {"GetDirectionalDerivative",
+       {},
        [](auto c) { return fmi2GetDirectionalDerivative(c, &reference, 1, &reference, 1, real, real); }},
   };
 }
@@ -217,7 +239,8 @@ TEST(Fmi2, UnknownReferencesAndNullArrays) {
   fmi2Component c = make_in(STEPPING);
   const unsigned in = some_field(HOAP2_FMU_INPUT, HOAP2_FMU_REAL).first_element;
   const unsigned beyond = HOAP2_FMU_PRODUCT.element_count + 1;
-  for (const unsigned reference : {0u, beyond, 0xFFFFFFFFu, some_field(HOAP2_FMU_INPUT, HOAP2_FMU_INT).first_element}) {
+  for (const unsigned reference :
+       {0u, beyond, 0xFFFFFFFFu, some_field(HOAP2_FMU_INPUT, HOAP2_FMU_INT).first_element}) {
     const unsigned references[2] = {in, reference};
     const fmi2Real values[2] = {0.5, 0.5};
     fmi2Real got[2];
@@ -287,7 +310,8 @@ TEST(Fmi2, OutOfRangeParameterCanBeMended) {
   EXPECT_EQ(fmi2SetReal(c, &reference, 1, &bad), fmi2OK);
   EXPECT_EQ(fmi2ExitInitializationMode(c), fmi2Error);
   ASSERT_FALSE(log_lines.empty());
-  EXPECT_NE(log_lines.back().text.find("r_knee." + std::string(f.name) + " = 99"), std::string::npos) << log_lines.back().text;
+  EXPECT_NE(log_lines.back().text.find("r_knee." + std::string(f.name) + " = 99"), std::string::npos)
+      << log_lines.back().text;
   EXPECT_EQ(fmi2SetReal(c, &reference, 1, &good), fmi2OK);
   EXPECT_EQ(fmi2ExitInitializationMode(c), fmi2OK);
   fmi2FreeInstance(c);

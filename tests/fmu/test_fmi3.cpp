@@ -23,7 +23,8 @@ void keep(fmi3InstanceEnvironment, fmi3Status status, fmi3String category, fmi3S
 
 fmi3Instance make(bool logging = true, const char* token = HOAP2_FMU_PRODUCT.token, bool event_mode = false,
                   const char* name = "test") {
-  return fmi3InstantiateCoSimulation(name, token, "", false, logging, event_mode, false, nullptr, 0, nullptr, keep, nullptr);
+  return fmi3InstantiateCoSimulation(name, token, "", false, logging, event_mode, false, nullptr, 0, nullptr,
+                                     keep, nullptr);
 }
 
 enum Mode { INSTANTIATED, INITIALISING, STEPPING, TERMINATED };
@@ -31,9 +32,15 @@ const Mode MODES[] = {INSTANTIATED, INITIALISING, STEPPING, TERMINATED};
 
 fmi3Instance make_in(Mode mode) {
   fmi3Instance c = make();
-  if (mode >= INITIALISING) { EXPECT_EQ(fmi3EnterInitializationMode(c, false, 0, 0, false, 0), fmi3OK); }
-  if (mode >= STEPPING) { EXPECT_EQ(fmi3ExitInitializationMode(c), fmi3OK); }
-  if (mode >= TERMINATED) { EXPECT_EQ(fmi3Terminate(c), fmi3OK); }
+  if (mode >= INITIALISING) {
+    EXPECT_EQ(fmi3EnterInitializationMode(c, false, 0, 0, false, 0), fmi3OK);
+  }
+  if (mode >= STEPPING) {
+    EXPECT_EQ(fmi3ExitInitializationMode(c), fmi3OK);
+  }
+  if (mode >= TERMINATED) {
+    EXPECT_EQ(fmi3Terminate(c), fmi3OK);
+  }
   log_lines.clear();
   return c;
 }
@@ -42,8 +49,12 @@ fmi3Status step(fmi3Instance c, double now_s, double size_s) {
   bool event = true, end = true, early = true;
   double last = 0;
   const fmi3Status status = fmi3DoStep(c, now_s, size_s, true, &event, &end, &early, &last);
-  if (c) { EXPECT_FALSE(status == fmi3OK && (event || end || early)); }
-  if (status == fmi3OK) { EXPECT_NEAR(last, now_s + size_s, 1e-9); }
+  if (c) {
+    EXPECT_FALSE(status == fmi3OK && (event || end || early));
+  }
+  if (status == fmi3OK) {
+    EXPECT_NEAR(last, now_s + size_s, 1e-9);
+  }
   return status;
 }
 
@@ -82,9 +93,12 @@ std::vector<Call> calls() {
   static const hoap2_fmu_field_t& fixed = some_field(HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL);
   static const unsigned in_row = row_of(in), out_row = row_of(out), in_int_row = row_of(in_int),
                         out_int_row = row_of(out_int), fixed_row = row_of(fixed), time_row = 0;
-  const std::vector<Mode> get = {INITIALISING, STEPPING, TERMINATED}, set = {INSTANTIATED, INITIALISING, STEPPING};
+  const std::vector<Mode> get = {INITIALISING, STEPPING, TERMINATED},
+                          set = {INSTANTIATED, INITIALISING, STEPPING};
   return {
-      {"EnterInitializationMode", {INSTANTIATED}, [](auto c) { return fmi3EnterInitializationMode(c, 0, 0, 0, 0, 0); }},
+      {"EnterInitializationMode",
+       {INSTANTIATED},
+       [](auto c) { return fmi3EnterInitializationMode(c, 0, 0, 0, 0, 0); }},
       {"ExitInitializationMode", {INITIALISING}, [](auto c) { return fmi3ExitInitializationMode(c); }},
       {"Terminate", {STEPPING}, [](auto c) { return fmi3Terminate(c); }},
       {"DoStep", {STEPPING}, [](auto c) { return step(c, 0.0, 0.001); }},
@@ -95,12 +109,17 @@ std::vector<Call> calls() {
       {"SetInt32", set, [](auto c) { return fmi3SetInt32(c, &in_int_row, 1, integers(), in_int.count); }},
       {"GetFloat32", get, [](auto c) { return fmi3GetFloat32(c, nullptr, 0, nullptr, 0); }},
       {"SetString", set, [](auto c) { return fmi3SetString(c, nullptr, 0, nullptr, 0); }},
-      {"SetFloat64(fixed parameter)", {INSTANTIATED, INITIALISING},
+      {"SetFloat64(fixed parameter)",
+       {INSTANTIATED, INITIALISING},
        [](auto c) { return fmi3SetFloat64(c, &fixed_row, 1, reals(), fixed.count); }},
       {"SetFloat64(output)", {}, [](auto c) { return fmi3SetFloat64(c, &out_row, 1, reals(), out.count); }},
       {"SetFloat64(time)", {}, [](auto c) { return fmi3SetFloat64(c, &time_row, 1, reals(), 1); }},
-      {"SetFloat64(too few values)", {}, [](auto c) { return fmi3SetFloat64(c, &in_row, 1, reals(), in.count - 1); }},
-      {"GetFloat64(too many values)", {}, [](auto c) { return fmi3GetFloat64(c, &out_row, 1, reals(), out.count + 1); }},
+      {"SetFloat64(too few values)",
+       {},
+       [](auto c) { return fmi3SetFloat64(c, &in_row, 1, reals(), in.count - 1); }},
+      {"GetFloat64(too many values)",
+       {},
+       [](auto c) { return fmi3GetFloat64(c, &out_row, 1, reals(), out.count + 1); }},
   };
 }
 
@@ -121,34 +140,57 @@ std::vector<Call> unsupported() {
       {"EnterEventMode", {}, [](auto c) { return fmi3EnterEventMode(c); }},
       {"EnterStepMode", {}, [](auto c) { return fmi3EnterStepMode(c); }},
       {"EvaluateDiscreteStates", {}, [](auto c) { return fmi3EvaluateDiscreteStates(c); }},
-      {"UpdateDiscreteStates", {},
+      {"UpdateDiscreteStates",
+       {},
        [](auto c) { return fmi3UpdateDiscreteStates(c, &flag, &flag, &flag, &flag, &flag, &number); }},
-      {"GetIntervalDecimal", {}, [](auto c) { return fmi3GetIntervalDecimal(c, &reference, 1, &number, &qualifier); }},
-      {"GetIntervalFraction", {}, [](auto c) { return fmi3GetIntervalFraction(c, &reference, 1, &big, &big, &qualifier); }},
+      {"GetIntervalDecimal",
+       {},
+       [](auto c) { return fmi3GetIntervalDecimal(c, &reference, 1, &number, &qualifier); }},
+      {"GetIntervalFraction",
+       {},
+       [](auto c) { return fmi3GetIntervalFraction(c, &reference, 1, &big, &big, &qualifier); }},
       {"GetShiftDecimal", {}, [](auto c) { return fmi3GetShiftDecimal(c, &reference, 1, &number); }},
       {"GetShiftFraction", {}, [](auto c) { return fmi3GetShiftFraction(c, &reference, 1, &big, &big); }},
       {"SetIntervalDecimal", {}, [](auto c) { return fmi3SetIntervalDecimal(c, &reference, 1, &number); }},
-      {"SetIntervalFraction", {}, [](auto c) { return fmi3SetIntervalFraction(c, &reference, 1, &big, &big); }},
+      {"SetIntervalFraction",
+       {},
+       [](auto c) { return fmi3SetIntervalFraction(c, &reference, 1, &big, &big); }},
       {"SetShiftDecimal", {}, [](auto c) { return fmi3SetShiftDecimal(c, &reference, 1, &number); }},
       {"SetShiftFraction", {}, [](auto c) { return fmi3SetShiftFraction(c, &reference, 1, &big, &big); }},
       {"ActivateModelPartition", {}, [](auto c) { return fmi3ActivateModelPartition(c, 1, 0); }},
-      {"GetNumberOfVariableDependencies", {}, [](auto c) { return fmi3GetNumberOfVariableDependencies(c, 1, &count); }},
-      {"GetVariableDependencies", {},
+      {"GetNumberOfVariableDependencies",
+       {},
+       [](auto c) { return fmi3GetNumberOfVariableDependencies(c, 1, &count); }},
+      {"GetVariableDependencies",
+       {},
        [](auto c) { return fmi3GetVariableDependencies(c, 1, nullptr, nullptr, nullptr, nullptr, 0); }},
-      {"GetDirectionalDerivative", {},
-       [](auto c) { return fmi3GetDirectionalDerivative(c, &reference, 1, &reference, 1, &number, 1, &number, 1); }},
-      {"GetAdjointDerivative", {},
-       [](auto c) { return fmi3GetAdjointDerivative(c, &reference, 1, &reference, 1, &number, 1, &number, 1); }},
-      {"GetOutputDerivatives", {},
+      {"GetDirectionalDerivative",
+       {},
+       [](auto c) {
+         return fmi3GetDirectionalDerivative(c, &reference, 1, &reference, 1, &number, 1, &number, 1);
+       }},
+      {"GetAdjointDerivative",
+       {},
+       [](auto c) {
+         return fmi3GetAdjointDerivative(c, &reference, 1, &reference, 1, &number, 1, &number, 1);
+       }},
+      {"GetOutputDerivatives",
+       {},
        [](auto c) { return fmi3GetOutputDerivatives(c, &reference, 1, integers(), &number, 1); }},
       {"EnterContinuousTimeMode", {}, [](auto c) { return fmi3EnterContinuousTimeMode(c); }},
-      {"CompletedIntegratorStep", {}, [](auto c) { return fmi3CompletedIntegratorStep(c, true, &flag, &flag); }},
+      {"CompletedIntegratorStep",
+       {},
+       [](auto c) { return fmi3CompletedIntegratorStep(c, true, &flag, &flag); }},
       {"SetTime", {}, [](auto c) { return fmi3SetTime(c, 0); }},
       {"SetContinuousStates", {}, [](auto c) { return fmi3SetContinuousStates(c, &number, 1); }},
-      {"GetContinuousStateDerivatives", {}, [](auto c) { return fmi3GetContinuousStateDerivatives(c, &number, 1); }},
+      {"GetContinuousStateDerivatives",
+       {},
+       [](auto c) { return fmi3GetContinuousStateDerivatives(c, &number, 1); }},
       {"GetEventIndicators", {}, [](auto c) { return fmi3GetEventIndicators(c, &number, 1); }},
       {"GetContinuousStates", {}, [](auto c) { return fmi3GetContinuousStates(c, &number, 1); }},
-      {"GetNominalsOfContinuousStates", {}, [](auto c) { return fmi3GetNominalsOfContinuousStates(c, &number, 1); }},
+      {"GetNominalsOfContinuousStates",
+       {},
+       [](auto c) { return fmi3GetNominalsOfContinuousStates(c, &number, 1); }},
       {"GetNumberOfEventIndicators", {}, [](auto c) { return fmi3GetNumberOfEventIndicators(c, &count); }},
       {"GetNumberOfContinuousStates", {}, [](auto c) { return fmi3GetNumberOfContinuousStates(c, &count); }},
       {"GetBinary", {}, [](auto c) { return fmi3GetBinary(c, &reference, 1, &count, &binary, 1); }},
@@ -176,7 +218,9 @@ TEST(Fmi3, CallsInEachState) {
     // the buffer holds the first fixed parameter as it is, so that setting it is harmless
     const hoap2_fmu_field_t& fixed = some_field(HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL);
     const unsigned row = row_of(fixed);
-    if (mode != INSTANTIATED) { EXPECT_EQ(fmi3GetFloat64(c, &row, 1, reals(), fixed.count), fmi3OK); }
+    if (mode != INSTANTIATED) {
+      EXPECT_EQ(fmi3GetFloat64(c, &row, 1, reals(), fixed.count), fmi3OK);
+    }
     fmi3FMUState start = nullptr;
     EXPECT_EQ(fmi3GetFMUState(c, &start), fmi3OK);
     for (const Call& call : calls()) {
@@ -223,10 +267,11 @@ TEST(Fmi3, InstantiateRefuses) {
   log_lines.clear();
   EXPECT_EQ(make(false, "{wrong}"), nullptr);
   EXPECT_TRUE(log_lines.empty());
-  EXPECT_EQ(fmi3InstantiateModelExchange("x", HOAP2_FMU_PRODUCT.token, "", false, true, nullptr, keep), nullptr);
+  EXPECT_EQ(fmi3InstantiateModelExchange("x", HOAP2_FMU_PRODUCT.token, "", false, true, nullptr, keep),
+            nullptr);
   EXPECT_EQ(log_lines.size(), 1u);
-  EXPECT_EQ(fmi3InstantiateScheduledExecution("x", HOAP2_FMU_PRODUCT.token, "", false, true, nullptr, keep, nullptr, nullptr,
-                                              nullptr),
+  EXPECT_EQ(fmi3InstantiateScheduledExecution("x", HOAP2_FMU_PRODUCT.token, "", false, true, nullptr, keep,
+                                              nullptr, nullptr, nullptr),
             nullptr);
 }
 

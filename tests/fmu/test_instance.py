@@ -44,8 +44,10 @@ def test_slices_cover_the_arrays_in_the_order_of_the_table(files: FmuSet, produc
     with open_fmu(files, product, version) as fmu:
         fmu.initialize()
         assert fmu.product == product
-        for group, slices, arrays in (("input", fmu.input_slices, (fmu.inputs_real, fmu.inputs_int)),
-                                      ("output", fmu.output_slices, (fmu.outputs_real, fmu.outputs_int))):
+        for group, slices, arrays in (
+            ("input", fmu.input_slices, (fmu.inputs_real, fmu.inputs_int)),
+            ("output", fmu.output_slices, (fmu.outputs_real, fmu.outputs_int)),
+        ):
             for kind, array in zip(("real", "int"), arrays, strict=True):
                 rows = [s for s in table.select(product, group) if s.kind == kind]
                 ends = np.cumsum([s.count for s in rows])
@@ -68,9 +70,18 @@ def test_start_values_are_the_defaults_of_the_table(files: FmuSet, product: str,
 @pytest.mark.parametrize("version", [2, 3])
 def test_parameters_by_row_by_element_and_broadcast(files: FmuSet, version: int) -> None:
     with open_fmu(files, "plant", version) as fmu:
-        fmu.set_parameters({"friction_mu": 0.5, "cell_gain": 1.05, "push_link": list(range(8)), "seed": 7,
-                            "start_pos_W_m": np.array([3.0, -2.0]), "r_knee.start_posture_rad": 0.7,
-                            "l_knee.start_posture_rad": 0.71, "block_size_m[2].y": 0.3})
+        fmu.set_parameters(
+            {
+                "friction_mu": 0.5,
+                "cell_gain": 1.05,
+                "push_link": list(range(8)),
+                "seed": 7,
+                "start_pos_W_m": np.array([3.0, -2.0]),
+                "r_knee.start_posture_rad": 0.7,
+                "l_knee.start_posture_rad": 0.71,
+                "block_size_m[2].y": 0.3,
+            }
+        )
         fmu.initialize()
         posture = dict(zip(load().labels["joint"], fmu.get("start_posture_rad"), strict=True))
         assert (posture["r_knee"], posture["l_knee"]) == (0.7, 0.71)
@@ -84,8 +95,12 @@ def test_parameters_by_row_by_element_and_broadcast(files: FmuSet, version: int)
 @pytest.mark.parametrize("version", [2, 3])
 def test_wrong_parameters_are_named(files: FmuSet, version: int) -> None:
     with open_fmu(files, "controller", version) as fmu:
-        for values, text in (({"step_lenght_m": 0.02}, "did you mean step_length_m"), ({"posture_rad": [1.0, 2.0]}, "25 elements, 2"),
-                             ({"steps_forward": 2.5}, "integer"), ({"step_length_m": "long"}, "not a number")):
+        for values, text in (
+            ({"step_lenght_m": 0.02}, "did you mean step_length_m"),
+            ({"posture_rad": [1.0, 2.0]}, "25 elements, 2"),
+            ({"steps_forward": 2.5}, "integer"),
+            ({"step_length_m": "long"}, "not a number"),
+        ):
             with pytest.raises(FmuVariableError, match=text):
                 fmu.set_parameters(values)
         fmu.initialize()
@@ -114,7 +129,9 @@ def test_a_tuned_gain_reaches_the_walk(files: FmuSet) -> None:
 
 
 @pytest.mark.parametrize(("product", "version"), FLAVOURS)
-def test_log_only_when_on_and_nothing_on_stdout(files: FmuSet, product: str, version: int, capfd: pytest.CaptureFixture) -> None:
+def test_log_only_when_on_and_nothing_on_stdout(
+    files: FmuSet, product: str, version: int, capfd: pytest.CaptureFixture
+) -> None:
     for logging in (True, False):
         with open_fmu(files, product, version, logging=logging) as fmu:
             fmu.initialize()

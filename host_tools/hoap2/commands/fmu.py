@@ -9,8 +9,11 @@ from typing import Annotated
 
 import typer
 
-app = typer.Typer(add_completion=False, no_args_is_help=True,
-                  help="The FMUs: controller and plant, each for FMI 2.0 and FMI 3.0, and hoap2.ssp with both.")
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    help="The FMUs: controller and plant, each for FMI 2.0 and FMI 3.0, and hoap2.ssp with both.",
+)
 Json = Annotated[bool, typer.Option("--json", help="Machine-readable, on standard output.")]
 
 
@@ -65,12 +68,16 @@ def _show(context, quick: bool) -> int:
         for result in run_checks(context, quick, lambda c: status.update(f"{c.name}: {c.subject}")):
             results.append(result)
             verdict = "[green]ok[/]" if result.ok else "[bold red]failed[/]"
-            table.add_row(result.check if result.check != last else "", result.subject, verdict, _escaped(result.detail))
+            table.add_row(
+                result.check if result.check != last else "", result.subject, verdict, _escaped(result.detail)
+            )
             last = result.check
     console.print(table)
     failed = [r for r in results if not r.ok]
     seconds = sum(r.seconds for r in results)
-    console.print(f"{len(results) - len(failed)} of {len(results)} checks hold ({seconds:.0f} s); equal means to the bit")
+    console.print(
+        f"{len(results) - len(failed)} of {len(results)} checks hold ({seconds:.0f} s); equal means to the bit"
+    )
     return 1 if failed else 0
 
 

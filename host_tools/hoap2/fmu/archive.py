@@ -101,8 +101,9 @@ class FmuArchive:
                     if name == "modelDescription.xml" or name.startswith(("binaries/", "resources/")):
                         archive.extract(member, self.folder)
         except (zipfile.BadZipFile, OSError, EOFError, NotImplementedError, RuntimeError, ValueError) as e:
-            raise FmuFileError(f"{self.path} cannot be read as an FMU: {e}. Get or build it anew "
-                               "(./hoap2 fmu build)") from e
+            raise FmuFileError(
+                f"{self.path} cannot be read as an FMU: {e}. Get or build it anew (./hoap2 fmu build)"
+            ) from e
         except Exception as e:  # zlib.error has no common base with the others
             raise FmuFileError(f"{self.path} is damaged: {e}") from e
         if not (self.folder / "modelDescription.xml").exists():
@@ -126,7 +127,12 @@ class FmuArchive:
 
     def _check_binary(self) -> None:
         folder = fmpy.platform if self.version == 2 else fmpy.platform_tuple
-        binary = self.folder / "binaries" / folder / (self.description.coSimulation.modelIdentifier + fmpy.sharedLibraryExtension)
+        binary = (
+            self.folder
+            / "binaries"
+            / folder
+            / (self.description.coSimulation.modelIdentifier + fmpy.sharedLibraryExtension)
+        )
         if not binary.exists():
             found = sorted(p.name for p in (self.folder / "binaries").glob("*")) or ["none"]
             raise FmuFileError(f"{self.path} has no binary for {folder} (it has: {', '.join(found)})")
@@ -142,15 +148,19 @@ class FmuArchive:
     def _find_product(self, table: Table) -> str:
         """The product whose inputs and outputs this FMU has."""
         names = self._names()
-        missing = {p: (self._expected_names(table, p, "input") | self._expected_names(table, p, "output")) - names
-                   for p in PRODUCTS}
+        missing = {
+            p: (self._expected_names(table, p, "input") | self._expected_names(table, p, "output")) - names
+            for p in PRODUCTS
+        }
         for product in PRODUCTS:
             if not missing[product]:
                 return product
         best = min(PRODUCTS, key=lambda p: len(missing[p]))
         some = ", ".join(sorted(missing[best])[:4])
-        raise FmuVariableError(f"{self.path} is neither a controller nor a plant of this project: for a {best} it lacks "
-                               f"{len(missing[best])} variables ({some}, ...); docs/generated/signals.md lists them all")
+        raise FmuVariableError(
+            f"{self.path} is neither a controller nor a plant of this project: for a {best} it lacks "
+            f"{len(missing[best])} variables ({some}, ...); docs/generated/signals.md lists them all"
+        )
 
     def _rows(self, table: Table) -> dict[str, Row]:
         """Inputs and outputs must all be there; parameters as far as the FMU has them."""
@@ -164,8 +174,10 @@ class FmuArchive:
                 if missing and group == "parameter":
                     continue
                 if missing:
-                    raise FmuVariableError(f"{self.path} has no {group} {missing[0]}{nearest(missing[0], variables)}, "
-                                           f"which a {self.product} needs")
+                    raise FmuVariableError(
+                        f"{self.path} has no {group} {missing[0]}{nearest(missing[0], variables)}, "
+                        f"which a {self.product} needs"
+                    )
                 self._check_variables([variables[n] for n in names], s.kind, group, s.count)
                 references = tuple(variables[n].valueReference for n in names)
                 rows[s.name] = Row(s.name, s.kind, group, s.shape, references, elements)

@@ -83,7 +83,9 @@ def all_checks(quick: bool) -> list[Check]:
     return [*check_files.checks(quick), *check_runs.checks(), *check_importers.checks()]
 
 
-def run_checks(context: Context, quick: bool = False, announce: Callable[[Check], None] | None = None) -> Iterator[Result]:
+def run_checks(
+    context: Context, quick: bool = False, announce: Callable[[Check], None] | None = None
+) -> Iterator[Result]:
     """Run all checks one by one; a check that breaks counts as failed, the others go on."""
     context.files.require()
     for check in all_checks(quick):

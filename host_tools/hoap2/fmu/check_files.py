@@ -47,8 +47,10 @@ def _schema_findings(text: bytes, schema: Path) -> list[str]:
 def schemas(context: Context, product: str, version: int) -> str:
     """XML files against the schemas of the standard that fmpy ships."""
     folder = SCHEMAS / f"fmi{version}"
-    wanted = {"modelDescription.xml": f"fmi{version}ModelDescription.xsd",
-              "sources/buildDescription.xml": "fmi3BuildDescription.xsd"}
+    wanted = {
+        "modelDescription.xml": f"fmi{version}ModelDescription.xsd",
+        "sources/buildDescription.xml": "fmi3BuildDescription.xsd",
+    }
     judged = []
     with zipfile.ZipFile(context.files.fmu(product, version)) as archive:
         for name in [n for n in wanted if n in archive.namelist()]:
@@ -79,7 +81,9 @@ def libraries(context: Context, version: int) -> str:
     """The plant's libraries come from its own folder, and nothing else from outside the C library."""
     with FmuArchive(context.files.fmu("plant", version)) as archive:
         environment = {k: v for k, v in os.environ.items() if k != "LD_LIBRARY_PATH"}
-        text = subprocess.run(["ldd", str(archive.binary)], capture_output=True, text=True, check=True, env=environment).stdout
+        text = subprocess.run(
+            ["ldd", str(archive.binary)], capture_output=True, text=True, check=True, env=environment
+        ).stdout
         own = {line.split()[0]: line.split()[2] for line in text.splitlines() if "=>" in line}
         for name in ("libode.so.8", "libccd.so.2"):
             place = own.get(name, "nowhere")
@@ -112,11 +116,14 @@ def _fmpy_compile(folder: Path) -> None:
     """`fmpy compile` in a process of its own: it talks, and it takes the first cmake in PATH."""
     build = folder / "build"
     build.mkdir()
-    program = ("import sys; from fmpy.build import build_platform_binary as b; "
-               "b(sys.argv[1], sys.argv[2], generator='Ninja' if __import__('shutil').which('ninja') else None)")
+    program = (
+        "import sys; from fmpy.build import build_platform_binary as b; "
+        "b(sys.argv[1], sys.argv[2], generator='Ninja' if __import__('shutil').which('ninja') else None)"
+    )
     environment = os.environ | {"PATH": "/usr/bin:/bin:" + os.environ.get("PATH", "")}
-    done = subprocess.run([sys.executable, "-c", program, str(folder), str(build)], capture_output=True, text=True,
-                          env=environment)
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(folder), str(build)], capture_output=True, text=True, env=environment
+    )
     last = "; ".join((done.stdout + done.stderr).strip().splitlines()[-3:])
     require(done.returncode == 0, f"fmpy cannot compile the sources: {last}")
 
@@ -132,9 +139,13 @@ def ssp(context: Context) -> str:
     findings = _schema_findings(text, SSP_SCHEMAS / "SystemStructureDescription.xsd")
     require(not findings, "; ".join(findings))
     root = etree.fromstring(text)
-    found = [tuple(c.get(k) for k in ("startElement", "startConnector", "endElement", "endConnector"))
-             for c in root.iter(f"{SSD}Connection")]
-    require(len(found) == len(set(found)) and set(found) == set(connections(table)), "connections are missing or double")
+    found = [
+        tuple(c.get(k) for k in ("startElement", "startConnector", "endElement", "endConnector"))
+        for c in root.iter(f"{SSD}Connection")
+    ]
+    require(
+        len(found) == len(set(found)) and set(found) == set(connections(table)), "connections are missing or double"
+    )
     inputs = sum(s.count for s in table.signals if s.group == "input")
     require(len(found) == inputs, f"{len(found)} connections for {inputs} inputs")
     return f"{len(found)} connections, every input driven"
@@ -145,8 +156,12 @@ def _damaged(context: Context) -> dict[str, Path]:
     good = context.files.fmu("plant", 3).read_bytes()
     made = {}
     middle = len(good) // 2
-    for name, content in {"cut": good[:middle], "empty": b"", "text": b"not an FMU\n",
-                          "flipped": good[:middle] + bytes([good[middle] ^ 0xFF]) + good[middle + 1:]}.items():
+    for name, content in {
+        "cut": good[:middle],
+        "empty": b"",
+        "text": b"not an FMU\n",
+        "flipped": good[:middle] + bytes([good[middle] ^ 0xFF]) + good[middle + 1 :],
+    }.items():
         made[name] = context.scratch / f"{name}.fmu"
         made[name].write_bytes(content)
     for name, keep in {"no_description": "binaries/", "no_binary": "modelDescription.xml"}.items():
@@ -176,12 +191,17 @@ def checks(quick: bool) -> list[Check]:
     """The checks of this file."""
     found: list[Check] = []
     each: dict[str, Callable[[Context, str, int], str]] = {
-        "fmpy validate": validate, "XML schemas": schemas, "contents": contents}
+        "fmpy validate": validate,
+        "XML schemas": schemas,
+        "contents": contents,
+    }
     for name, function in each.items():
         found += [Check(name, f"{p} FMI {v}", lambda c, f=function, p=p, v=v: f(c, p, v)) for p, v in subjects()]
     found += [Check("own libraries", f"plant FMI {v}", lambda c, v=v: libraries(c, v)) for v in VERSIONS]
     found.append(Check("connections", "hoap2.ssp", ssp))
     found.append(Check("damaged FMU refused", "any FMU", damaged_files))
     if not quick:
-        found += [Check("built from its sources", f"controller FMI {v}", lambda c, v=v: source_build(c, v)) for v in VERSIONS]
+        found += [
+            Check("built from its sources", f"controller FMI {v}", lambda c, v=v: source_build(c, v)) for v in VERSIONS
+        ]
     return found

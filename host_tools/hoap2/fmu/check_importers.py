@@ -23,7 +23,9 @@ def fmpy_simulation(context: Context, product: str, version: int) -> str:
         fmu.initialize()
         rows = [r for r in fmu.rows.values() if r.group == "output"]
         names = [n for r in rows for n in (r.element_names if version == 2 else (r.name,))]
-        result = fmpy.simulate_fmu(str(path), stop_time=HELD_TICKS * 1e-3, step_size=1e-3, output_interval=1e-3, output=names)
+        result = fmpy.simulate_fmu(
+            str(path), stop_time=HELD_TICKS * 1e-3, step_size=1e-3, output_interval=1e-3, output=names
+        )
         require(len(result) == HELD_TICKS + 1, f"{len(result)} points instead of {HELD_TICKS + 1}")
         for point in range(HELD_TICKS + 1):
             flat = np.concatenate([np.asarray(result[n][point], dtype=np.float64).reshape(-1) for n in names])
@@ -76,10 +78,14 @@ def libcosim(context: Context) -> str:
 
 def _references(context: Context, product: str) -> tuple[list[int], list[int]]:
     with FmuInstance(context.files.fmu(product, 2)) as fmu:
-        return tuple([r for row in fmu.archive.select("output", kind) for r in row.references] for kind in ("real", "int"))
+        return tuple(
+            [r for row in fmu.archive.select("output", kind) for r in row.references] for kind in ("real", "int")
+        )
 
 
 def checks() -> list[Check]:
     """The checks of this file."""
-    found = [Check("fmpy simulate", f"{p} FMI {v}", lambda c, p=p, v=v: fmpy_simulation(c, p, v)) for p, v in subjects()]
+    found = [
+        Check("fmpy simulate", f"{p} FMI {v}", lambda c, p=p, v=v: fmpy_simulation(c, p, v)) for p, v in subjects()
+    ]
     return [*found, Check("libcosim", "hoap2.ssp", libcosim)]

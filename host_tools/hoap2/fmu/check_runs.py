@@ -37,11 +37,13 @@ def run_twice(context: Context) -> str:
 
 
 def _span(trace: Trace, begin: int, end: int) -> Trace:
-    return Trace(outputs_real=trace.outputs_real[begin: end + 1], outputs_int=trace.outputs_int[begin: end + 1])
+    return Trace(outputs_real=trace.outputs_real[begin : end + 1], outputs_int=trace.outputs_int[begin : end + 1])
 
 
 def _tail(trace: Trace, begin: int) -> Trace:
-    return Trace(trace.inputs_real[begin:], trace.inputs_int[begin:], trace.outputs_real[begin:], trace.outputs_int[begin:])
+    return Trace(
+        trace.inputs_real[begin:], trace.inputs_int[begin:], trace.outputs_real[begin:], trace.outputs_int[begin:]
+    )
 
 
 def restore(context: Context, version: int) -> str:
@@ -70,8 +72,10 @@ def restore(context: Context, version: int) -> str:
 def _resume(context: Context, version: int, blocks: dict[str, bytes], expected: dict[str, Trace]) -> None:
     """Bytes into instances that never ran, of this FMI version and of the other."""
     for target in (version, 5 - version):
-        with (FmuInstance(context.files.fmu("controller", target)) as controller,
-              FmuInstance(context.files.fmu("plant", target)) as plant):
+        with (
+            FmuInstance(context.files.fmu("controller", target)) as controller,
+            FmuInstance(context.files.fmu("plant", target)) as plant,
+        ):
             for fmu in (controller, plant):
                 state = fmu.deserialize(blocks[fmu.product])
                 fmu.set_state(state)
@@ -111,7 +115,14 @@ def bad_steps(context: Context, product: str, version: int) -> str:
         fmu.initialize()
         fmu.step(7)
         before = fmu.serialize()
-        sizes = {"half a tick": 0.5, "1.5 ticks": 1.5, "nothing": 0.0, "backwards": -1.0, "NaN": math.nan, "infinite": math.inf}
+        sizes = {
+            "half a tick": 0.5,
+            "1.5 ticks": 1.5,
+            "nothing": 0.0,
+            "backwards": -1.0,
+            "NaN": math.nan,
+            "infinite": math.inf,
+        }
         for name, ticks in sizes.items():
             _refused_step(fmu, name, fmu.time_s, ticks * 1e-3)
         for name, start_s in {"later": fmu.time_s + 1e-3, "earlier": 0.0, "NaN": math.nan}.items():
@@ -210,7 +221,10 @@ def bad_parameters(context: Context, product: str, version: int) -> str:
             try:
                 fmu.initialize()
             except FmuCallError as e:
-                require(name in str(e) and f"{signal.high:g}" in str(e), f"the error does not name {name} and its range: {e}")
+                require(
+                    name in str(e) and f"{signal.high:g}" in str(e),
+                    f"the error does not name {name} and its range: {e}",
+                )
             else:
                 require(False, f"{name} = {value} was accepted")
     return f"{name} above, below, NaN: refused by name"
@@ -281,8 +295,14 @@ def checks() -> list[Check]:
     """The checks of this file."""
     found = [Check("FMI 2 = FMI 3", "pairs", versions_agree), Check("repeatable", "pair FMI 3", run_twice)]
     found += [Check("save and restore", f"pair FMI {v}", lambda c, v=v: restore(c, v)) for v in VERSIONS]
-    each = {"communication steps": step_sizes, "bad steps refused": bad_steps, "two instances": interleaved,
-            "other threads": other_threads, "two threads at once": at_once, "bad parameters refused": bad_parameters}
+    each = {
+        "communication steps": step_sizes,
+        "bad steps refused": bad_steps,
+        "two instances": interleaved,
+        "other threads": other_threads,
+        "two threads at once": at_once,
+        "bad parameters refused": bad_parameters,
+    }
     for name, function in each.items():
         found += [Check(name, f"{p} FMI {v}", lambda c, f=function, p=p, v=v: f(c, p, v)) for p, v in subjects()]
     for v in VERSIONS:

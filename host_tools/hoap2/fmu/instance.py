@@ -16,7 +16,8 @@ import fmpy.fmi3
 import numpy as np
 import numpy.typing as npt
 
-from .archive import FmuArchive, FmuCallError, FmuError, FmuFileError, FmuVariableError, Row, nearest
+from .archive import FmuArchive, FmuCallError, FmuError, FmuFileError, FmuVariableError, nearest
+from .buffers import DTYPE, Exchange, ParameterValues
 
 __all__ = ["FmuArchive", "FmuCallError", "FmuError", "FmuFileError", "FmuInstance", "FmuState", "FmuVariableError"]
 
@@ -39,32 +40,12 @@ class FmuState:
         self.pointer = ctypes.c_void_p()
 
 
-class _Exchange:
-    """One direction and kind: an array, its references, and the FMI call that moves it."""
-
-    def __init__(self, rows: list[Row], kind: str, version: int):
-        self.slices: dict[str, slice] = {}
-        self.element_names: list[str] = []
-        references: list[int] = []
-        for row in rows:
-            start = len(self.element_names)
-            self.element_names += row.element_names
-            self.slices[row.name] = slice(start, len(self.element_names))
-            references += row.references
-        self.array = np.zeros(len(self.element_names), dtype=np.float64 if kind == "real" else np.int32)
-        self._references = (ctypes.c_uint32 * len(references))(*references)
-        pointer = ctypes.c_void_p(self.array.ctypes.data)
-        count = ctypes.c_size_t(len(references))
-        self.arguments = (self._references, count, pointer)
-        if version == 3:
-            self.arguments += (ctypes.c_size_t(self.array.size),)
-
-
 class FmuInstance:
     """A Co-Simulation FMU, FMI 2.0 or 3.0, with the variables of signals.toml."""
 
-    def __init__(self, source: str | Path | FmuArchive, product: str | None = None, name: str | None = None,
-                 logging: bool = True):
+    def __init__(
+        self, source: str | Path | FmuArchive, product: str | None = None, name: str | None = None, logging: bool = True
+    ):
         """source: an FMU file, or an archive that several instances share."""
         self._own_archive = not isinstance(source, FmuArchive)
         self.archive = FmuArchive(source, product) if self._own_archive else source
@@ -72,7 +53,7 @@ class FmuInstance:
         self.name = name or self.product
         self.log: list[tuple[int, str, str]] = []  # status, category, text
         self.states: list[FmuState] = []  # not yet released
-        self._parameters: dict[str, np.ndarray] = {}
+        self._parameters = ParameterValues(self.rows, self.product, self.archive.description)
         self.tick = 0
         self.start_time_s = 0.0
         self.component: ctypes.c_void_p | None = None
@@ -91,8 +72,12 @@ class FmuInstance:
         kind = fmpy.fmi2.FMU2Slave if self.version == 2 else fmpy.fmi3.FMU3Slave
         token = description.guid if self.version == 2 else description.instantiationToken
         try:
-            self.fmu = kind(guid=token, unzipDirectory=str(self.archive.folder),
-                            modelIdentifier=description.coSimulation.modelIdentifier, instanceName=self.name)
+            self.fmu = kind(
+                guid=token,
+                unzipDirectory=str(self.archive.folder),
+                modelIdentifier=description.coSimulation.modelIdentifier,
+                instanceName=self.name,
+            )
             if self.version == 2:
                 self.fmu.instantiate(loggingOn=logging, callbacks=self._fmi2_callbacks())
             else:
@@ -124,8 +109,11 @@ class FmuInstance:
         return ": " + "; ".join(texts[-3:]) if texts else ""
 
     def _make_buffers(self) -> None:
-        parts = {(group, kind): _Exchange(self.archive.select(group, kind), kind, self.version)
-                 for group in ("input", "output") for kind in ("real", "int")}
+        parts = {
+            (group, kind): Exchange(self.archive.select(group, kind), kind, self.version)
+            for group in ("input", "output")
+            for kind in ("real", "int")
+        }
         self.inputs_real, self.inputs_int = parts["input", "real"].array, parts["input", "int"].array
         self.outputs_real, self.outputs_int = parts["output", "real"].array, parts["output", "int"].array
         self.input_slices = parts["input", "real"].slices | parts["input", "int"].slices
@@ -148,8 +136,11 @@ class FmuInstance:
 
     def _bind(self, prefix: str, names: Mapping[str, str], group: str, parts: Mapping) -> list[tuple]:
         """(function, arguments) of each call that moves something."""
-        return [(getattr(self._library, prefix + names[kind]), (self._handle, *parts[group, kind].arguments))
-                for kind in ("real", "int") if parts[group, kind].array.size]
+        return [
+            (getattr(self._library, prefix + names[kind]), (self._handle, *parts[group, kind].arguments))
+            for kind in ("real", "int")
+            if parts[group, kind].array.size
+        ]
 
     # --- calls ---
 
@@ -171,66 +162,33 @@ class FmuInstance:
         return name.replace("FMUState", "FMUstate").replace("Deserialize", "DeSerialize")
 
     def _refused(self, name: str, seen: int = 0) -> None:
-        texts = [text for status, _, text in self.log[seen:] if status > OK_OR_WARNING] or \
-                [text for status, _, text in self.log[-1:]]
+        texts = [text for status, _, text in self.log[seen:] if status > OK_OR_WARNING] or [
+            text for status, _, text in self.log[-1:]
+        ]
         reason = ": " + "; ".join(texts) if texts else " and gave no reason"
         raise FmuCallError(f"{self.name} ({self.archive.path.name}) refused {name} at {self.time_s:.3f} s{reason}")
 
     def set_parameters(self, values: Mapping[str, float | int | npt.ArrayLike]) -> None:
         """Parameters by row name (a number fills an array) or by element name (`r_knee.posture_rad`)."""
-        known = {r.name: r for r in self.rows.values() if r.group == "parameter"}
         for name, value in values.items():
-            if name in known:
-                self._set_row(known[name], value)
-            else:
-                self._set_element(name, value, known)
-
-    def _set_row(self, row: Row, value: float | int | npt.ArrayLike) -> None:
-        try:
-            given = np.asarray(value, dtype=np.float64)
-        except (TypeError, ValueError) as e:
-            raise FmuVariableError(f"parameter {row.name}: {value!r} is not a number or a list of numbers") from e
-        if given.size not in (1, row.count):
-            raise FmuVariableError(f"parameter {row.name} has {row.count} elements, {given.size} were given")
-        self._send_parameter(row, np.broadcast_to(given.reshape(-1), (row.count,)))
-
-    def _set_element(self, name: str, value: float | int, known: Mapping[str, Row]) -> None:
-        for row in known.values():
-            if name in row.element_names:
-                data = self._parameter(row).astype(np.float64)
-                data[row.element_names.index(name)] = value
-                self._send_parameter(row, data)
-                return
-        raise FmuVariableError(f"the {self.product} has no parameter {name}{nearest(name, known)}")
-
-    def _send_parameter(self, row: Row, values: np.ndarray) -> None:
-        if row.kind == "int" and not np.array_equal(values, np.round(values)):
-            raise FmuVariableError(f"parameter {row.name} is an integer: {values.tolist()} is not")
-        data = np.ascontiguousarray(values, dtype=np.float64 if row.kind == "real" else np.int32)
-        self._values_call("Set", row.kind, row.references, data)
-        self._parameters[row.name] = data
-
-    def _parameter(self, row: Row) -> np.ndarray:
-        """A parameter's present value: as set here, else the start value."""
-        if row.name not in self._parameters:
-            starts = {v.name: v.start for v in self.archive.description.modelVariables}
-            values = [starts[n] for n in (row.element_names if self.version == 2 else (row.name,))]
-            numbers = values[0] if isinstance(values[0], list) else " ".join(map(str, values)).split()
-            self._parameters[row.name] = np.array([float(x) for x in numbers])
-        return self._parameters[row.name]
+            row, data = self._parameters.resolve(name, value)
+            self._values_call("Set", row.kind, row.references, data)
+            self._parameters.keep(row, data)
 
     def _values_call(self, verb: str, kind: str, references: tuple[int, ...], data: np.ndarray) -> None:
         types = {"real": "Real", "int": "Integer"} if self.version == 2 else {"real": "Float64", "int": "Int32"}
         array = (ctypes.c_uint32 * len(references))(*references)
         sizes = (ctypes.c_size_t(data.size),) if self.version == 3 else ()
-        self.call(verb + types[kind], array, ctypes.c_size_t(len(references)), ctypes.c_void_p(data.ctypes.data), *sizes)
+        self.call(
+            verb + types[kind], array, ctypes.c_size_t(len(references)), ctypes.c_void_p(data.ctypes.data), *sizes
+        )
 
     def get(self, name: str) -> np.ndarray:
         """A row's present value, straight from the FMU (slow; for tests and looks)."""
         if name not in self.rows:
             raise FmuVariableError(f"the {self.product} has no variable {name}{nearest(name, self.rows)}")
         row = self.rows[name]
-        data = np.zeros(row.count, dtype=np.float64 if row.kind == "real" else np.int32)
+        data = np.zeros(row.count, dtype=DTYPE[row.kind])
         self._values_call("Get", row.kind, row.references, data)
         return data.reshape(row.shape)
 
@@ -323,7 +281,9 @@ class FmuInstance:
     def set_state(self, state: FmuState) -> None:
         """Go back to a saved state; the output arrays are read, the input arrays stay as they are."""
         if state.owner is not self or not state.pointer:
-            raise FmuCallError(f"{self.name}: this state was released, or is another instance's; pass its bytes on instead")
+            raise FmuCallError(
+                f"{self.name}: this state was released, or is another instance's; pass its bytes on instead"
+            )
         self.call("SetFMUState", state.pointer)
         self.initialised = True
         self.tick = state.tick if state.tick is not None else self._tick_of_fmu()

@@ -38,7 +38,11 @@ class Trace:
         points = [i for pair in pairs for i, (a, b) in enumerate(pair) if a.tobytes() != b.tobytes()]
         if points:
             return min(points)
-        return None if len(self.outputs_real) == len(other.outputs_real) else min(map(len, (self.outputs_real, other.outputs_real)))
+        return (
+            None
+            if len(self.outputs_real) == len(other.outputs_real)
+            else min(map(len, (self.outputs_real, other.outputs_real)))
+        )
 
 
 class Pair:
@@ -68,8 +72,9 @@ class Pair:
         wires = []
         for name, where in sink.input_slices.items():
             kind = sink.rows[name].kind
-            wires.append((getattr(source, f"outputs_{kind}"), source.output_slices[name],
-                          getattr(sink, f"inputs_{kind}"), where))
+            wires.append(
+                (getattr(source, f"outputs_{kind}"), source.output_slices[name], getattr(sink, f"inputs_{kind}"), where)
+            )
         return wires
 
     def exchange(self) -> None:

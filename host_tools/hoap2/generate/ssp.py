@@ -28,10 +28,15 @@ def _connector(s: Signal, name: str) -> str:
 
 
 def _component(table: Table, product: str) -> str:
-    lines = [_connector(s, name) for s in rows(table, product) if s.group != "parameter" for name in table.element_names(s)]
-    return (f'      <ssd:Component name="{product}" type="application/x-fmu-sharedlibrary" '
-            f'source="resources/hoap2_{product}_fmi2.fmu" implementation="CoSimulation">\n        <ssd:Connectors>\n'
-            + "\n".join(lines) + "\n        </ssd:Connectors>\n      </ssd:Component>")
+    lines = [
+        _connector(s, name) for s in rows(table, product) if s.group != "parameter" for name in table.element_names(s)
+    ]
+    return (
+        f'      <ssd:Component name="{product}" type="application/x-fmu-sharedlibrary" '
+        f'source="resources/hoap2_{product}_fmi2.fmu" implementation="CoSimulation">\n        <ssd:Connectors>\n'
+        + "\n".join(lines)
+        + "\n        </ssd:Connectors>\n      </ssd:Component>"
+    )
 
 
 def _units(table: Table) -> str:
@@ -45,15 +50,19 @@ def _units(table: Table) -> str:
 
 def system_structure(table: Table) -> str:
     """SystemStructure.ssd."""
-    lines = [f'      <ssd:Connection startElement="{a}" startConnector="{x}" endElement="{b}" endConnector="{y}"/>'
-             for a, x, b, y in connections(table)]
+    lines = [
+        f'      <ssd:Connection startElement="{a}" startConnector="{x}" endElement="{b}" endConnector="{y}"/>'
+        for a, x, b, y in connections(table)
+    ]
     components = "\n".join(_component(table, product) for product in PRODUCTS)
-    return ('<?xml version="1.0" encoding="UTF-8"?>\n' + XML_BANNER + "\n"
-            '<ssd:SystemStructureDescription name="hoap2" version="1.0"\n'
-            '    xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"\n'
-            '    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon">\n'
-            '  <ssd:System name="hoap2" description="HOAP-2: walking controller and robot">\n'
-            f"    <ssd:Elements>\n{components}\n    </ssd:Elements>\n"
-            "    <ssd:Connections>\n" + "\n".join(lines) + "\n    </ssd:Connections>\n  </ssd:System>\n"
-            f"{_units(table)}\n"
-            '  <ssd:DefaultExperiment startTime="0"/>\n</ssd:SystemStructureDescription>\n')
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n' + XML_BANNER + "\n"
+        '<ssd:SystemStructureDescription name="hoap2" version="1.0"\n'
+        '    xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"\n'
+        '    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon">\n'
+        '  <ssd:System name="hoap2" description="HOAP-2: walking controller and robot">\n'
+        f"    <ssd:Elements>\n{components}\n    </ssd:Elements>\n"
+        "    <ssd:Connections>\n" + "\n".join(lines) + "\n    </ssd:Connections>\n  </ssd:System>\n"
+        f"{_units(table)}\n"
+        '  <ssd:DefaultExperiment startTime="0"/>\n</ssd:SystemStructureDescription>\n'
+    )
