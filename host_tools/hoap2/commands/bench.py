@@ -64,7 +64,7 @@ def _show(document: dict) -> None:
         table.add_row(text, f"{_median(runs, name, 'median'):.1f}", p99, f"{bound:g}" if bound else "")
     console = Console(highlight=False, soft_wrap=True)
     console.print(table)
-    console.print(f"  exchange against models and exchange: {_median(runs, 'fmu_exchange_share'):.0%}")
+    console.print(f"  exchange: {_median(runs, 'fmu_exchange_share'):.0%} of models and exchange")
     console.print(f"  whole run: {_median(runs, 'real_time_factor'):.2f} x real time "
                   f"({_median(runs, 'run_wall_s'):.1f} s for {_median(runs, 'simulated_s'):.1f} s, start and report "
                   f"included), peak memory {_median(runs, 'peak_memory_mb'):.0f} MB")
