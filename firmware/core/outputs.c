@@ -100,7 +100,8 @@ static void fill_estimates(const start_pose_t *start, const hoap2_sense_t *sense
   for (int foot = 0; foot < 2; ++foot) out->foot_force_est_N[foot] = sense->foot_force_N[foot];
 }
 
-static void fill_gait(const start_pose_t *start, double hip_height_m, const hoap2_gait_t *gait, hoap2_outputs_t *out) {
+static void fill_gait(const start_pose_t *start, double hip_height_m, const hoap2_gait_t *gait,
+                      hoap2_outputs_t *out) {
   const double com_ref_O_m[2] = {gait->com_m[0] + gait->tpcc_m[0], gait->com_m[1] + gait->tpcc_m[1]};
   point_to_world(start, com_ref_O_m, out->com_ref_W_m);
   out->com_ref_W_m[2] = hip_height_m + gait->com_over_base_B_m[2];

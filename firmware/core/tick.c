@@ -22,7 +22,8 @@ int32_t hoap2_init(hoap2_state_t *state, const hoap2_params_t *params) {
   hoap2_gait_reset(&state->params, &state->gait);
   memcpy(state->stance_q_rad, state->gait.q_ref_rad, sizeof state->stance_q_rad);
   if (state->mode.fault == 0) state->mode.fault = hoap2_gait_check_reach(&state->params, &state->gait);
-  if (hoap2_limit_references(state->stance_q_rad, state->stance_q_rad)) state->mode.fault |= HOAP2_FAULT_JOINT_LIMIT;
+  if (hoap2_limit_references(state->stance_q_rad, state->stance_q_rad))
+    state->mode.fault |= HOAP2_FAULT_JOINT_LIMIT;
   state->mode.mode = state->mode.fault ? HOAP2_MODE_SAFE : HOAP2_MODE_START_UP;
   double q_ref_rad[HOAP2_SIZE_JOINT];
   memcpy(q_ref_rad, state->params.posture_rad, sizeof q_ref_rad);
@@ -42,7 +43,8 @@ int32_t hoap2_tune(hoap2_state_t *state, const hoap2_params_t *params) {
 
 void hoap2_step(hoap2_state_t *state, const hoap2_inputs_t *inputs, hoap2_outputs_t *outputs) {
   const int good = hoap2_watchdog_step(state, inputs);
-  if (good) hoap2_sense_step(&state->params, &state->held, &state->gait.feet, state->gait.omega_1_s, &state->sense);
+  if (good)
+    hoap2_sense_step(&state->params, &state->held, &state->gait.feet, state->gait.omega_1_s, &state->sense);
   double q_ref_rad[HOAP2_SIZE_JOINT];
   hoap2_mode_step(state, good, q_ref_rad);
   if (hoap2_limit_references(state->out.q_ref_rad, q_ref_rad)) state->mode.fault |= HOAP2_FAULT_JOINT_LIMIT;

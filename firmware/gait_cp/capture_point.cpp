@@ -6,8 +6,8 @@ namespace hoap2 {
 
 namespace {
 
-// Share of the ramp's target in the capture point's final place: cp_des = ... + (1 + s) cop_to; s -> -e^(omega T)
-// for a ramp of no length.
+// Share of the ramp's target in the capture point's final place: cp_des = ... + (1 + s) cop_to; s ->
+// -e^(omega T) for a ramp of no length.
 double ramp_gain(double omega_1_s, double T_s, double ramp_s) {
   const double growth_after = hoap2_exp(omega_1_s * (T_s - ramp_s));
   const double growth_ramp = hoap2_exp(omega_1_s * ramp_s);

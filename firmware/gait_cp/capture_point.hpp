@@ -4,7 +4,8 @@
 
 namespace hoap2 {
 
-// (7.5): the CoP that carries the capture point from cp to cp_des within a time dT, growth = e^(omega dT) > 1.
+// (7.5): the CoP that carries the capture point from cp to cp_des within a time dT, growth = e^(omega dT)
+// > 1.
 inline double cop_for_capture_point(double cp_des, double cp, double growth) {
   return (cp_des - growth * cp) / (1.0 - growth);
 }
@@ -25,8 +26,9 @@ inline void pendulum_after(double cop, double omega_1_s, double cosh_dT, double 
 // capture point goes from cp to cp_des in the time T (solution of (7.2) with a linear, then constant CoP).
 double cop_for_ramp(double cp_des, double cp, double cop_from, double omega_1_s, double T_s, double ramp_s);
 
-// The capture point from which a constant CoP would have to start so that all CoPs of such a plan lie on the line
-// through it and the end-of-step capture point: the start of the line along which the clamp shifts the CoP.
+// The capture point from which a constant CoP would have to start so that all CoPs of such a plan lie on the
+// line through it and the end-of-step capture point: the start of the line along which the clamp shifts the
+// CoP.
 double line_start_for_ramp(double cp, double cop_from, double omega_1_s, double T_s, double ramp_s);
 
 }  // namespace hoap2

@@ -34,13 +34,15 @@ void advance_centre(const hoap2_params_t& params, int swing_foot, bool in_place,
   centre[2] += yaw_rad;
 }
 
-void capture_point_over(const hoap2_params_t& params, const double footprint[3], int foot, double point_m[2]) {
+void capture_point_over(const hoap2_params_t& params, const double footprint[3], int foot,
+                        double point_m[2]) {
   offset_point(footprint, params.cp_offset_x_m, -side(foot) * params.cp_offset_inward_m, point_m);
 }
 
 void capture_point_between(const hoap2_params_t& params, const double right[3], const double left[3],
                            double point_m[2]) {
-  const double middle[3] = {0.5 * (right[0] + left[0]), 0.5 * (right[1] + left[1]), 0.5 * (right[2] + left[2])};
+  const double middle[3] = {0.5 * (right[0] + left[0]), 0.5 * (right[1] + left[1]),
+                            0.5 * (right[2] + left[2])};
   offset_point(middle, params.cp_offset_x_m, 0.0, point_m);
 }
 

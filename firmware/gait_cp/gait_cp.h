@@ -1,7 +1,8 @@
 /* Walking by the capture point (section 7.2) on position-controlled joints.
  *
  * footprints -> capture point at the end of the step -> CoP (7.9) -> clamp -> CoM (7.13) -> torso position
- * compliance -> inverse kinematics. With CPS (7.11) or CPT (7.12) the CoP comes from the sensed capture point.
+ * compliance -> inverse kinematics. With CPS (7.11) or CPT (7.12) the CoP comes from the sensed capture
+ * point.
  */
 #ifndef HOAP2_GAIT_CP_GAIT_CP_H
 #define HOAP2_GAIT_CP_GAIT_CP_H

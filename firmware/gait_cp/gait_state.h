@@ -9,8 +9,8 @@
 
 typedef struct {
   /* pendulum constants */
-  double omega_1_s;  /* sqrt(g / com_height) */
-  double cosh_tick;  /* cosh and sinh of omega times one tick */
+  double omega_1_s; /* sqrt(g / com_height) */
+  double cosh_tick; /* cosh and sinh of omega times one tick */
   double sinh_tick;
   double exp_tick;
 
@@ -27,10 +27,10 @@ typedef struct {
   double com_rate_m_s[2];
   double cp_start_m[2]; /* (7.8) */
   double cp_eos_m[2];
-  double cop_step_m[2]; /* desired CoP of the step, (7.9) after the clamp */
-  double cop_from_m[2]; /* CoP when the step began, for the ramp */
-  double cop_m[2];      /* desired CoP now */
-  double cp_ref_m[2];   /* (7.10) */
+  double cop_step_m[2];     /* desired CoP of the step, (7.9) after the clamp */
+  double cop_from_m[2];     /* CoP when the step began, for the ramp */
+  double cop_m[2];          /* desired CoP now */
+  double cp_ref_m[2];       /* (7.10) */
   double cp_deviation_m[2]; /* sensed capture point against that of the CoM reference, low-passed */
 
   /* torso position compliance */

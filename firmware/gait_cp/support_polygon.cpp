@@ -61,7 +61,8 @@ SupportPolygon hull_of_soles(const double footprint_a[3], const double footprint
   add_sole(footprint_b, margin_m, points + 4);
   int start = 0;
   for (int i = 1; i < 8; ++i)
-    if (points[i].x < points[start].x || (points[i].x == points[start].x && points[i].y < points[start].y)) start = i;
+    if (points[i].x < points[start].x || (points[i].x == points[start].x && points[i].y < points[start].y))
+      start = i;
   SupportPolygon polygon;
   int current = start;
   for (int k = 0; k < 8; ++k) {
@@ -69,8 +70,10 @@ SupportPolygon hull_of_soles(const double footprint_a[3], const double footprint
     int next = (current + 1) % 8;
     for (int i = 0; i < 8; ++i) {
       const double turn = cross(points[current], points[next], points[i]);
-      const bool farther = turn == 0.0 && hoap2_hypot(points[i].x - points[current].x, points[i].y - points[current].y) >
-                                             hoap2_hypot(points[next].x - points[current].x, points[next].y - points[current].y);
+      const bool farther =
+          turn == 0.0 &&
+          hoap2_hypot(points[i].x - points[current].x, points[i].y - points[current].y) >
+              hoap2_hypot(points[next].x - points[current].x, points[next].y - points[current].y);
       if (turn < 0.0 || farther) next = i;
     }
     current = next;

@@ -15,10 +15,10 @@ namespace hoap2 {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
-constexpr int kReachSteps = 8;            // a step's geometry repeats after two steps
-constexpr double kReachExcess_m = 2e-4;   // draw-back of a leg that counts as out of reach
-constexpr double kSoleClearance_m = 2e-3; // least gap between the soles in a landing
-constexpr double kRateTolerance = 1.2;    // joint rate of the plan against the limit
+constexpr int kReachSteps = 8;             // a step's geometry repeats after two steps
+constexpr double kReachExcess_m = 2e-4;    // draw-back of a leg that counts as out of reach
+constexpr double kSoleClearance_m = 2e-3;  // least gap between the soles in a landing
+constexpr double kRateTolerance = 1.2;     // joint rate of the plan against the limit
 
 double clip(double value, double limit) { return value < -limit ? -limit : (value > limit ? limit : value); }
 
@@ -30,7 +30,8 @@ double step_time_s(const hoap2_gait_t& gait) { return gait.step_tick * kTick_s; 
 // filter's pace.
 void track_capture_point(const hoap2_params_t& params, const hoap2_sense_t& sense, hoap2_gait_t& gait) {
   for (int i = 0; i < 2; ++i) {
-    const double reference_m = gait.com_m[i] + gait.tpcc_m[i] + (gait.com_rate_m_s[i] + gait.tpcc_rate_m_s[i]) / gait.omega_1_s;
+    const double reference_m =
+        gait.com_m[i] + gait.tpcc_m[i] + (gait.com_rate_m_s[i] + gait.tpcc_rate_m_s[i]) / gait.omega_1_s;
     const double raw_m = clip(sense.cp_O_m[i] - reference_m, params.cp_deviation_limit_m);
     gait.cp_deviation_m[i] += kTick_s / (params.cp_filter_s + kTick_s) * (raw_m - gait.cp_deviation_m[i]);
   }
@@ -56,8 +57,8 @@ SupportPolygon base_of_support(const hoap2_params_t& params, const hoap2_gait_t&
 }
 
 // (7.11): horizon to the end of the step, floored because the law is singular there.
-// (7.12): horizon of one control period, towards (7.10) at its end with the CoP of the plan held; so on the plan
-// it is the CoP of the plan, along a ramp too.
+// (7.12): horizon of one control period, towards (7.10) at its end with the CoP of the plan held; so on the
+// plan it is the CoP of the plan, along a ramp too.
 void controlled_cop(const hoap2_params_t& params, const double plan_cop_m[2], hoap2_gait_t& gait) {
   const bool cps = params.cp_controller == HOAP2_CP_CONTROLLER_CPS;
   const double left_s = (gait.step_ticks - gait.step_tick) * kTick_s;
@@ -90,7 +91,8 @@ void planned_cop(const hoap2_params_t& params, const hoap2_gait_t& gait, double 
 void pendulum_tick(bool controlled, const double plan_cop_m[2], hoap2_gait_t& gait) {
   for (int i = 0; i < 2; ++i) {
     const double cop_m = controlled ? gait.cop_m[i] - gait.cp_deviation_m[i] : gait.cop_m[i];
-    pendulum_after(cop_m, gait.omega_1_s, gait.cosh_tick, gait.sinh_tick, gait.com_m[i], gait.com_rate_m_s[i]);
+    pendulum_after(cop_m, gait.omega_1_s, gait.cosh_tick, gait.sinh_tick, gait.com_m[i],
+                   gait.com_rate_m_s[i]);
     gait.cp_ref_m[i] = capture_point_after(gait.cp_ref_m[i], plan_cop_m[i], gait.exp_tick);
   }
 }
@@ -130,7 +132,8 @@ void place_feet(const hoap2_params_t& params, hoap2_gait_t& gait) {
     const double along = static_cast<double>(gait.step_tick) / gait.step_ticks;
     phase = (along - params.ds_fraction) / (1.0 - 2.0 * params.ds_fraction);
     gait.phase = phase > 0.0 && phase < 1.0 ? HOAP2_PHASE_SINGLE_SUPPORT : HOAP2_PHASE_DOUBLE_SUPPORT;
-    gait.heading_rad = gait.heading_from_rad + hoap2_quintic(along) * (gait.heading_to_rad - gait.heading_from_rad);
+    gait.heading_rad =
+        gait.heading_from_rad + hoap2_quintic(along) * (gait.heading_to_rad - gait.heading_from_rad);
   }
   for (int foot = 0; foot < 2; ++foot) {
     const bool swings = foot == gait.swing_foot;
@@ -203,7 +206,8 @@ int32_t hoap2_gait_check_reach(const hoap2_params_t* params, const hoap2_gait_t*
   memset(&blind, 0, sizeof blind);
   trial.feedback = 0;
   hoap2_gait_start(params, &trial);
-  const int32_t ticks = hoap2::step_ticks(params->start_shift_s) + hoap2::kReachSteps * hoap2::step_ticks(params->step_time_s);
+  const int32_t ticks =
+      hoap2::step_ticks(params->start_shift_s) + hoap2::kReachSteps * hoap2::step_ticks(params->step_time_s);
   int32_t fault = 0;
   for (int32_t tick = 0; tick < ticks && trial.walking; ++tick) {
     double q_last_rad[HOAP2_SIZE_JOINT];

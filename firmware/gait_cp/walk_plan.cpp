@@ -11,7 +11,8 @@ namespace {
 int other(int foot) { return 1 - foot; }
 
 // (7.8), (7.9) or its ramp form, and the clamp of 7.2.2 d.
-void plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, double duration_s, hoap2_gait_t& gait) {
+void plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, double duration_s,
+              hoap2_gait_t& gait) {
   const bool ramp = params.cop_profile == HOAP2_COP_PROFILE_RAMP;
   const double growth = hoap2_exp(gait.omega_1_s * duration_s);
   double cop[2];
@@ -24,8 +25,10 @@ void plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, doubl
     cop[i] = cop_for_capture_point(gait.cp_eos_m[i], gait.cp_start_m[i], growth);
     if (ramp) {
       const double length_s = ramp_s(params, gait);
-      line_start[i] = line_start_for_ramp(gait.cp_start_m[i], gait.cop_m[i], gait.omega_1_s, duration_s, length_s);
-      cop[i] = cop_for_ramp(gait.cp_eos_m[i], gait.cp_start_m[i], gait.cop_m[i], gait.omega_1_s, duration_s, length_s);
+      line_start[i] =
+          line_start_for_ramp(gait.cp_start_m[i], gait.cop_m[i], gait.omega_1_s, duration_s, length_s);
+      cop[i] = cop_for_ramp(gait.cp_eos_m[i], gait.cp_start_m[i], gait.cop_m[i], gait.omega_1_s, duration_s,
+                            length_s);
     }
   }
   const Point2 inside = clamp_cop(polygon, {cop[0], cop[1]}, {line_start[0], line_start[1]},
@@ -56,7 +59,8 @@ void begin_shift(const hoap2_params_t& params, hoap2_gait_t& gait) {
   gait.phase = HOAP2_PHASE_DOUBLE_SUPPORT;
   capture_point_over(params, gait.foot[stance], stance, gait.cp_eos_m);
   for (int i = 0; i < 3; ++i) gait.land[i] = gait.foot[params.first_swing_foot][i];
-  plan_cop(params, hull_of_soles(gait.foot[0], gait.foot[1], params.cop_margin_m), params.start_shift_s, gait);
+  plan_cop(params, hull_of_soles(gait.foot[0], gait.foot[1], params.cop_margin_m), params.start_shift_s,
+           gait);
 }
 
 void begin_step(const hoap2_params_t& params, hoap2_gait_t& gait) {

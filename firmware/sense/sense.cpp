@@ -35,8 +35,10 @@ void cells_step(const hoap2_params_t& params, const hoap2_inputs_t& inputs, cons
     if (force_N < params.contact_off_N) sense.contact[foot] = 0;
     if (!sense.contact[foot]) continue;
     total_N += force_N;
-    moment_Nm[0] += force_N * feet.pos_O_m[foot][0] + cos_yaw * about_ankle_Nm[0] - sin_yaw * about_ankle_Nm[1];
-    moment_Nm[1] += force_N * feet.pos_O_m[foot][1] + sin_yaw * about_ankle_Nm[0] + cos_yaw * about_ankle_Nm[1];
+    moment_Nm[0] +=
+        force_N * feet.pos_O_m[foot][0] + cos_yaw * about_ankle_Nm[0] - sin_yaw * about_ankle_Nm[1];
+    moment_Nm[1] +=
+        force_N * feet.pos_O_m[foot][1] + sin_yaw * about_ankle_Nm[0] + cos_yaw * about_ankle_Nm[1];
   }
   if (total_N < kMinLoad_N) return;
   sense.cop_O_m[0] = moment_Nm[0] / total_N;

@@ -89,7 +89,7 @@ def _number(signal: tables.Signal, where: str, value) -> float:
     return float(value)
 
 
-def plain(signal: tables.Signal, flat: tuple[float, ...]):
+def plain(signal: tables.Signal, flat: tuple[float, ...]) -> int | float | str | list:
     """The values as a reader writes them: a number, an enum's word, a list or a list of rows."""
     kind = int if signal.kind == "int" else float
     values = [kind(v) for v in flat]

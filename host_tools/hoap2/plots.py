@@ -275,8 +275,8 @@ def sensing(run: Run) -> Figure:
         est = run.column(f"c.{name}_est_rad")
         run.line(axes[0, 0], None if est is None else (est - rpy[:, index]) * DEG, name, color=color)
     axes[0, 0].set_ylabel("attitude (deg)")
-    for row, (est, true, label) in enumerate((("cop_est_W_m", "true_cop_W_m", "CoP"), ("com_est_W_m", "true_com_W_m", "CoM")), 1):
-        a, b = run.start_mm(f"c.{est}"), run.start_mm(f"p.{true}")
+    for row, (name, label) in enumerate((("cop", "CoP"), ("com", "CoM")), 1):
+        a, b = run.start_mm(f"c.{name}_est_W_m"), run.start_mm(f"p.true_{name}_W_m")
         for index, (axis, color) in enumerate((("x", RIGHT), ("y", LEFT))):
             run.line(axes[row, 0], None if a is None else (a - b)[:, index], axis, color=color, linewidth=0.8)
         axes[row, 0].set_ylabel(f"{label} (mm)")

@@ -41,9 +41,8 @@ class FmuSide:
         named = (("real", instance.output_names_real), ("int", instance.output_names_int))
         self.outputs = [Column(name, units[name], kind) for kind, names in named for name in names]
         table = parameters.table()
-        self.inputs = [
-            Column(element, s.unit, s.kind) for s in table.select(product, "input") for element in table.element_names(s)
-        ]
+        rows = table.select(product, "input")
+        self.inputs = [Column(element, s.unit, s.kind) for s in rows for element in table.element_names(s)]
         self.real_out, self.int_out = instance.outputs_real, instance.outputs_int
         self.real_in, self.int_in = instance.inputs_real, instance.inputs_int
         self.get_outputs, self.set_inputs, self.step = instance.read, instance.write, instance.step

@@ -56,7 +56,8 @@ class RunProgress:
         elapsed_s = time.perf_counter() - self.started
         t_s = (log.count - 1) * parameters.table().tick_us / 1e6
         factor = t_s / elapsed_s if elapsed_s > 0 else 0.0
-        text = f"{t_s:6.2f} / {self.duration_s:.2f} s  {factor:4.2f} x real time  {robot_state(log, self.steps_planned)}"
+        state = robot_state(log, self.steps_planned)
+        text = f"{t_s:6.2f} / {self.duration_s:.2f} s  {factor:4.2f} x real time  {state}"
         if self.bar is not None:
             self.bar.update(self.task, completed=t_s, text=text)
             self.bar.refresh()

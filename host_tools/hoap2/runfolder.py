@@ -12,7 +12,7 @@ from pathlib import Path
 from hoap2.errors import UserError
 
 
-def jsonable(value):
+def jsonable(value: object) -> object:
     """The same value with numbers that JSON cannot carry (NaN, infinity) as null, NumPy types as plain ones."""
     if isinstance(value, dict):
         return {str(k): jsonable(v) for k, v in value.items()}

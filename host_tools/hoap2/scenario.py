@@ -256,7 +256,8 @@ def _parameters(raw: dict) -> tuple[parameters.Values, set[str]]:
             values[product][name] = parameters.check(product, name, value)
             explicit.add(f"{product}.{name}")
     for ours, theirs in MIRRORED:
-        for (a, name_a), (b, name_b) in ((("controller", ours), ("plant", theirs)), (("plant", theirs), ("controller", ours))):
+        pair = (("controller", ours), ("plant", theirs))
+        for (a, name_a), (b, name_b) in (pair, pair[::-1]):
             if f"{a}.{name_a}" in explicit and f"{b}.{name_b}" not in explicit:
                 values[b][name_b] = values[a][name_a]
     return values, explicit

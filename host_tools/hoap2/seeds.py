@@ -45,7 +45,8 @@ def apply(scenario: Scenario, seed: int) -> None:
     if seed == 0:
         return
     if scenario.seed:
-        raise UserError(f"{scenario.name}: this file already holds the draws of seed {scenario.seed}; leave --seed away")
+        raise UserError(f"{scenario.name}: this file already holds the draws of seed {scenario.seed}",
+                        "leave --seed away")  # fmt: skip
     plant = scenario.values["plant"]
     scenario.seed = seed
     for name, drawn in draw(seed).items():

@@ -180,7 +180,8 @@ def _flat(summary: dict, prefix: str = "") -> dict:
 
 def _write(folder: Path, document: dict) -> None:
     text = io.StringIO()
-    rows = [_flat({k: v for k, v in row.items() if k not in ("bounds", "title", "section")}) for row in document["runs"]]
+    left_out = ("bounds", "title", "section")
+    rows = [_flat({k: v for k, v in row.items() if k not in left_out}) for row in document["runs"]]
     if rows:
         names = list(dict.fromkeys(name for row in rows for name in row))
         writer = csv.DictWriter(text, names, restval="", lineterminator="\n")

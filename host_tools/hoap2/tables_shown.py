@@ -60,10 +60,11 @@ def show_summary(summary: dict, console: Console) -> None:
     console.print(bounds_table(summary))
     factor = summary["real_time_factor"]
     if factor:
+        medians = [number(summary[key]["median"]) for key in ("controller_us", "plant_us")]
         console.print(
             f"{summary['duration_s']:.2f} s simulated at {factor:.2f} x real time; "
-            f"controller {number(summary['controller_us']['median'])} us, plant {number(summary['plant_us']['median'])} us a tick"
-        )
+            f"controller {medians[0]} us, plant {medians[1]} us a tick", soft_wrap=True,
+        )  # fmt: skip
     for note in summary.get("notes", []):
         console.print(f"[yellow]note:[/] {note}")
     console.print(f"run folder: {summary['folder']}", soft_wrap=True)

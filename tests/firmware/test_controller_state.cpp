@@ -67,7 +67,8 @@ TEST(ControllerState, ACopyOfTheBytesContinuesBitForBit) {
   }
 }
 
-// A state is hashed and compared as bytes, so what lies between the members of a caller's structs stays outside.
+// A state is hashed and compared as bytes, so what lies between the members of a caller's structs stays
+// outside.
 TEST(ControllerState, PaddingOfTheCallersStructsStaysOutside) {
   hoap2_state_t states[2];
   for (int which = 0; which < 2; ++which) {

@@ -22,7 +22,8 @@ class FakeSide:
         self.outputs, self.inputs = _columns(product, "output"), _columns(product, "input")
         self.script = script or (lambda side, tick: None)
         self.tick = 0
-        sizes = {(g, k): sum(c.kind == k for c in getattr(self, g)) for g in ("inputs", "outputs") for k in ("real", "int")}
+        places = [(group, kind) for group in ("inputs", "outputs") for kind in ("real", "int")]
+        sizes = {(g, k): sum(c.kind == k for c in getattr(self, g)) for g, k in places}
         self.real_out, self.int_out = np.zeros(sizes["outputs", "real"]), np.zeros(sizes["outputs", "int"], np.int32)
         self.real_in, self.int_in = np.zeros(sizes["inputs", "real"]), np.zeros(sizes["inputs", "int"], np.int32)
         self._where = {}
