@@ -90,7 +90,7 @@ class PartProgress:
             self.bar.refresh()
         elif self.bar is None and now >= self.next_s:
             self.next_s = now + PLAIN_PERIOD_S
-            print(f"{self.title}: {done} of {total} {text}", file=sys.stderr, flush=True)
+            print(f"{self.title}: {text or f'{done} of {total}'}", file=sys.stderr, flush=True)
 
     def close(self) -> None:
         if self.bar is not None:
