@@ -172,4 +172,5 @@ def machine() -> dict:
         model = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), model)
     except OSError:
         pass
-    return {"processor": model, "cores": os.cpu_count(), "load": os.getloadavg()[0], "python": platform.python_version()}
+    return {"processor": model, "cores": os.cpu_count(), "load": os.getloadavg()[0],
+            "python": platform.python_version()}

@@ -117,7 +117,8 @@ def _load(path: str) -> ctypes.CDLL:
         "hoap2_plant_create": (pointer, []), "hoap2_plant_destroy": (None, [pointer]),
         "hoap2_plant_init": (ctypes.c_int, [pointer, pointer]), "hoap2_plant_step": (ctypes.c_int, [pointer, pointer]),
         "hoap2_plant_get_outputs": (None, [pointer, pointer]), "hoap2_plant_state_size": (size_t, []),
-        "hoap2_plant_get_state": (None, [pointer, pointer]), "hoap2_plant_set_state": (ctypes.c_int, [pointer, pointer]),
+        "hoap2_plant_get_state": (None, [pointer, pointer]),
+        "hoap2_plant_set_state": (ctypes.c_int, [pointer, pointer]),
         "hoap2_plant_error": (ctypes.c_char_p, [pointer]),
     }
     for name, (result, arguments) in signatures.items():

@@ -95,7 +95,8 @@ def run_ctest(preset: str, quick: bool) -> Ring:
         junit = ROOT / "build" / preset / "ctest.xml"
         junit.unlink(missing_ok=True)
         command = [_cmake("ctest"), "--test-dir", f"build/{preset}", "--output-on-failure", "--no-tests=error",
-                   "--output-junit", str(junit), "-j", str(os.cpu_count() or 1), *(["--progress"] if sys.stdout.isatty() else [])]
+                   "--output-junit", str(junit), "-j", str(os.cpu_count() or 1),
+                   *(["--progress"] if sys.stdout.isatty() else [])]
         excluded = ([] if not quick else ["slow"]) + (["no_sanitizers"] if preset == "asan" else [])
         command += ["-LE", f"^({'|'.join(excluded)})$"] if excluded else []
         done = subprocess.run(command, cwd=ROOT, stdin=subprocess.DEVNULL)

@@ -8,7 +8,8 @@ from hoap2 import testing
 from hoap2.testing import Ring
 
 CTEST = """<testsuite name="x" tests="4" failures="1" disabled="0" skipped="1">
-<testcase name="a.b" classname="a.b" status="run"/><testcase name="a.c" classname="a.c" status="fail"><failure/></testcase>
+<testcase name="a.b" classname="a.b" status="run"/>
+<testcase name="a.c" classname="a.c" status="fail"><failure/></testcase>
 </testsuite>"""
 PYTEST = """<testsuites><testsuite name="pytest" errors="1" failures="2" skipped="3" tests="10">
 <testcase classname="tests.t" name="one"><error/></testcase></testsuite></testsuites>"""
@@ -39,6 +40,7 @@ def test_an_empty_ring_is_not_well():
 
 
 def test_last_line_is_the_sum():
-    text = testing.summarise([Ring("C/C++", passed=5, failed=1, failures=["x::y"]), Ring("Python", passed=2, skipped=1)])
+    rings = [Ring("C/C++", passed=5, failed=1, failures=["x::y"]), Ring("Python", passed=2, skipped=1)]
+    text = testing.summarise(rings)
     assert text.splitlines()[-1] == "tests: 7 passed, 1 failed, 1 skipped"
     assert "failed: x::y" in text

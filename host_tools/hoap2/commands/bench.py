@@ -56,7 +56,8 @@ def _show(document: dict) -> None:
     from rich.table import Table
 
     runs, machine = document["runs"], document["machine"]
-    table = Table(title=f"a tick of 1 ms, in us (median of {len(runs)})", title_justify="left", box=None, padding=(0, 2))
+    table = Table(title=f"a tick of 1 ms, in us (median of {len(runs)})", title_justify="left", box=None,
+                  padding=(0, 2))
     for name, justify in (("part", "left"), ("median", "right"), ("p99", "right"), ("bound", "right")):
         table.add_column(name, justify=justify)
     for name, text, bound in ROWS:
@@ -68,4 +69,5 @@ def _show(document: dict) -> None:
     console.print(f"  whole run: {_median(runs, 'real_time_factor'):.2f} x real time "
                   f"({_median(runs, 'run_wall_s'):.1f} s for {_median(runs, 'simulated_s'):.1f} s, start and report "
                   f"included), peak memory {_median(runs, 'peak_memory_mb'):.0f} MB")
-    console.print(f"  {machine['processor']}, {machine['cores']} cores, load {machine['load']:.1f}, FMI {document['fmi']}")
+    console.print(f"  {machine['processor']}, {machine['cores']} cores, load {machine['load']:.1f}, "
+                  f"FMI {document['fmi']}")

@@ -24,7 +24,7 @@ def command(
     from hoap2.testing import run_all, run_pytest
 
     chosen = [*(["-k", keyword] if keyword else []), *(paths or []), *context.args]
-    chosen = [str(Path(word).resolve()) if not word.startswith("-") and Path(word).exists() else word for word in chosen]
+    chosen = [word if word.startswith("-") or not Path(word).exists() else str(Path(word).resolve()) for word in chosen]
     if chosen:
         return 0 if run_pytest(quick, chosen).ok else 1
     return run_all(quick)
