@@ -5,11 +5,12 @@
 
 #include "../generated/controller_fields.h"
 #include "../product.h"
+#include "hoap2/generated/names.h"
 #include "hoap2/hoap2.h"
 
 typedef struct {
   hoap2_state_t *state;
-  char error[160];
+  char error[320];
 } model_t;
 
 const hoap2_fmu_product_t HOAP2_FMU_PRODUCT = {
@@ -49,8 +50,11 @@ int hoap2_product_init(void *model, const void *params) {
   model_t *self = model;
   const int32_t faults = hoap2_init(self->state, params);
   if (faults == 0) return 0;
-  snprintf(self->error, sizeof self->error, "the controller cannot use these parameters (fault bits %d)",
-           (int)faults);
+  for (int i = 0; i < HOAP2_FAULT_NAMES; ++i) {
+    if (!(faults & HOAP2_FAULT_NAME[i].bit)) continue;
+    snprintf(self->error, sizeof self->error, "%s (fault %s)", HOAP2_FAULT_NAME[i].text, HOAP2_FAULT_NAME[i].name);
+    break;
+  }
   return 1;
 }
 

@@ -169,8 +169,9 @@ class Controller(_Product):
         self._c.hoap2_get_outputs(self._state, self.outputs.pointer)
         self.outputs.check_guard(self.library)
         if fault:
-            names = [name for name, bit in parameters.table().faults.items() if fault & bit]
-            raise UserError(f"the controller refuses these parameters: {', '.join(names)}")
+            table = parameters.table()
+            said = [f"{table.fault_texts[name]} (fault {name})" for name, bit in table.faults.items() if fault & bit]
+            raise UserError(f"the controller refuses these parameters: {'; '.join(said)}")
 
     def step(self, ticks: int = 1) -> None:
         """Do ticks of 1 ms with the inputs held."""

@@ -188,5 +188,9 @@ def names_header(table: Table) -> str:
     robot = table.robot
     joints = ", ".join(f'"{j["name"]}"' for j in robot["joints"])
     links = ", ".join(f'"{link["name"]}"' for link in robot["links"])
-    body = f"static const char *const HOAP2_JOINT_NAME[] = {{{joints}}};\nstatic const char *const HOAP2_LINK_NAME[] = {{{links}}};"
+    faults = ",\n".join(f'  {{{bit}, "{name}", "{table.fault_texts[name]}"}}' for name, bit in table.faults.items())
+    body = (f"static const char *const HOAP2_JOINT_NAME[] = {{{joints}}};\nstatic const char *const HOAP2_LINK_NAME[] = {{{links}}};\n"
+            f"typedef struct {{\n  int bit;\n  const char *name;\n  const char *text;\n}} hoap2_fault_name_t;\n"
+            f"static const hoap2_fault_name_t HOAP2_FAULT_NAME[{len(table.faults)}] = {{\n{faults}}};\n"
+            f"enum {{ HOAP2_FAULT_NAMES = {len(table.faults)} }};")
     return _guard("HOAP2_GENERATED_NAMES_H", body, "")

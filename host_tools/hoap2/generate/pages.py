@@ -18,6 +18,6 @@ def signals_page(table: Table) -> str:
                 out.append(f"| `{s.name}` | {size} | {s.unit if s.kind == 'real' else 'int'} | {default} | {span} | {text} |")
             out.append("")
     joints = ", ".join(f"{i} {n}" for i, n in enumerate(table.labels["joint"]))
-    faults = ", ".join(f"{bit} {name}" for name, bit in table.faults.items())
+    faults = "\n".join(f"- {bit} `{name}`: {table.fault_texts[name]}" for name, bit in table.faults.items())
     out += ["## Order of the joints", "", joints, "", "## Fault bits", "", faults, ""]
     return "\n".join(out)

@@ -50,6 +50,7 @@ class Table:
     labels: dict[str, list[str]]
     enums: dict[str, list[str]]
     faults: dict[str, int]
+    fault_texts: dict[str, str]
     tick_us: int
     schema: int
     signals: list[Signal] = field(default_factory=list)
@@ -101,7 +102,9 @@ def load() -> Table:
     raw = tomllib.loads(SIGNALS_TOML.read_text())
     labels = dict(raw["label"])
     labels["joint"] = [j["name"] for j in robot["joints"]]
-    table = Table(robot, raw["size"], labels, raw["enum"], raw["fault"], raw["tick_us"], raw["schema"])
+    faults = {name: row["bit"] for name, row in raw["fault"].items()}
+    fault_texts = {name: row["text"] for name, row in raw["fault"].items()}
+    table = Table(robot, raw["size"], labels, raw["enum"], faults, fault_texts, raw["tick_us"], raw["schema"])
     for product in PRODUCTS:
         for group in GROUPS:
             for row in raw[product][group]:
