@@ -325,7 +325,12 @@ TEST(Render, ManyLivesLeaveNoMemoryBehind) {
   live(5);
   const double before_mb = resident_mb();
   live(25);
-  EXPECT_LT(resident_mb() - before_mb, 25.0);
+#ifdef __SANITIZE_ADDRESS__
+  const double allowed_mb = 300.0;  // freed memory stays in the sanitizer's quarantine; it finds leaks itself
+#else
+  const double allowed_mb = 25.0;
+#endif
+  EXPECT_LT(resident_mb() - before_mb, allowed_mb);
 }
 
 }  // namespace
