@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -67,7 +68,8 @@ def _find(name: str) -> Path:
     if name.endswith(".toml") or "/" in name:
         path = Path(name)
         if not path.is_file():
-            raise UserError(f"no scenario file {name}", "give a name of `./hoap2 list` or the path of a .toml file")
+            inside = f"; a run is repeated by its own: {path / 'run.toml'}" if (path / "run.toml").is_file() else ""
+        raise UserError(f"no scenario file {name}", f"give a name of `./hoap2 list` or the path of a .toml file{inside}")
         return path
     if name not in names():
         error = parameters.unknown("scenario", name, names())
@@ -106,7 +108,7 @@ def _resolve(raw: dict, path: Path, overrides: list[str], sensors: str | None, d
     values, explicit = _parameters(raw)
     options = RUN_DEFAULTS | {k: _number(f"run.{k}", v, *RUN_KEYS[k]) for k, v in raw.get("run", {}).items()}
     scenario = Scenario(
-        name=head.get("name", path.stem), title=head["title"], section=head.get("section", ""),
+        name=_name(head.get("name", path.stem)), title=head["title"], section=head.get("section", ""),
         text=" ".join(head.get("text", "").split()), duration_s=0.0, values=values,
         bounds=bounds.parse(raw.get("bounds", {}), metric_names.NAMES), options=options, explicit=explicit,
         forced=forced,
@@ -118,11 +120,19 @@ def _resolve(raw: dict, path: Path, overrides: list[str], sensors: str | None, d
     return scenario
 
 
+def _name(name) -> str:
+    """The name of a scenario is that of its folder of runs."""
+    if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9._-]*", name):
+        raise UserError(f"scenario name {name!r} cannot name a folder", "use letters, digits, '-', '_' and '.'")
+    return name
+
+
 def _own_duration(scenario: Scenario) -> float:
-    """Without duration_s: calibration, the walk and a time of standing after it."""
+    """Without duration_s: start-up, calibration, the walk and a time of standing after it."""
     values = scenario.values["controller"]
+    before = values["start_up_s"][0] + values["calibrate_s"][0]
     walk = values["start_shift_s"][0] + scenario.steps_planned * values["step_time_s"][0]
-    return values["calibrate_s"][0] + (walk if scenario.steps_planned else 0.0) + scenario.options["settle_s"]
+    return before + (walk if scenario.steps_planned else 0.0) + scenario.options["settle_s"]
 
 
 def _whole_ticks(duration_s: float) -> float:

@@ -36,7 +36,7 @@ def run_here(tmp_path, monkeypatch):
 def built():
     missing = [p for p in ("controller", "plant") if not (paths.build_dir() / f"fmu/hoap2_{p}_fmi3.fmu").exists()]
     if missing:
-        pytest.skip(f"no FMUs in {paths.build_dir()}: ./hoap2 fmu build")
+        pytest.fail(f"no FMUs in {paths.build_dir()}: ./hoap2 fmu build")
 
 
 def signals(folder: Path):

@@ -35,7 +35,7 @@ def test_every_scenario_of_the_project_loads(name):
     loaded = scenario.load(name)
     assert loaded.title and loaded.section and loaded.text
     assert len(loaded.bounds) > 2, "a scenario judges something"
-    walk_s = sum(loaded.values["controller"][n][0] for n in ("calibrate_s", "start_shift_s"))
+    walk_s = sum(loaded.values["controller"][n][0] for n in ("start_up_s", "calibrate_s", "start_shift_s"))
     walk_s += loaded.steps_planned * loaded.values["controller"]["step_time_s"][0]
     assert loaded.duration_s >= (walk_s + 2.0 if loaded.steps_planned else 1.0) - 1e-9
 
@@ -57,7 +57,14 @@ def test_the_duration_follows_the_walk_unless_given(file):
     long = scenario.load(file(HEAD), ["controller.steps_forward=12", "controller.steps_in_place=1"])
     assert long.duration_s - short.duration_s == pytest.approx(10 * 0.4)
     stands = scenario.load(file(HEAD), ["controller.behaviour=stand"])
-    assert stands.duration_s == pytest.approx(3.0) and stands.steps_planned == 0
+    assert stands.duration_s == pytest.approx(3.5) and stands.steps_planned == 0
+    slow = scenario.load(file(HEAD), ["controller.behaviour=stand", "controller.start_up_s=4"])
+    assert slow.duration_s == pytest.approx(7.0)
+
+
+@pytest.mark.parametrize("name", ["../evil", ".hidden", "", "a/b"])
+def test_a_name_that_leaves_the_folder_of_runs_is_refused(file, name):
+    assert "cannot name a folder" in refusal(file(HEAD + f'name = "{name}"\n'))
 
 
 def test_sensor_presets(file):

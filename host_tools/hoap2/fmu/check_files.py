@@ -66,6 +66,8 @@ def contents(context: Context, product: str, version: int) -> str:
     """Documentation that names every variable, licences, binary, libraries or sources."""
     folder = f"binaries/{fmpy.platform if version == 2 else fmpy.platform_tuple}"
     wanted = {f"{folder}/hoap2_{product}.so", "documentation/index.html", "documentation/licenses/LICENSE.txt"}
+    licences = ("ode.txt", "libccd.txt") if product == "plant" else ("eigen.txt",)
+    wanted |= {f"documentation/licenses/{name}" for name in licences}
     if product == "plant":
         wanted |= {f"{folder}/libode.so.8", f"{folder}/libccd.so.2"}
     with zipfile.ZipFile(context.files.fmu(product, version)) as archive:

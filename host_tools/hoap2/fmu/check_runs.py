@@ -276,21 +276,6 @@ def nan_plant(context: Context, version: int) -> str:
     return "refused with a reason, then goes on equal"
 
 
-def exchange_cost(context: Context, version: int) -> str:
-    """Both FMUs' set and get calls, the models' own time left out."""
-    costs = []
-    with context.open_pair(version) as pair:
-        for _ in range(3000):
-            began = time.perf_counter_ns()
-            pair.controller.read()
-            pair.plant.read()
-            pair.exchange()
-            costs.append(time.perf_counter_ns() - began)
-    median = float(np.median(costs)) / 1e3
-    require(median <= EXCHANGE_BUDGET_US, f"{median:.1f} us a tick, more than {EXCHANGE_BUDGET_US:g}")
-    return f"{median:.1f} us a tick for both (at most {EXCHANGE_BUDGET_US:g})"
-
-
 def checks() -> list[Check]:
     """The checks of this file."""
     found = [Check("FMI 2 = FMI 3", "pairs", versions_agree), Check("repeatable", "pair FMI 3", run_twice)]
@@ -308,5 +293,4 @@ def checks() -> list[Check]:
     for v in VERSIONS:
         found.append(Check("NaN inputs", f"controller FMI {v}", lambda c, v=v: nan_controller(c, v)))
         found.append(Check("NaN inputs", f"plant FMI {v}", lambda c, v=v: nan_plant(c, v)))
-    found += [Check("exchange cost", f"pair FMI {v}", lambda c, v=v: exchange_cost(c, v)) for v in VERSIONS]
     return found
