@@ -68,8 +68,9 @@ def _find(name: str) -> Path:
     if name.endswith(".toml") or "/" in name:
         path = Path(name)
         if not path.is_file():
-            inside = f"; a run is repeated by its own: {path / 'run.toml'}" if (path / "run.toml").is_file() else ""
-        raise UserError(f"no scenario file {name}", f"give a name of `./hoap2 list` or the path of a .toml file{inside}")
+            inside = f"; a run is repeated by its own {path / 'run.toml'}" if (path / "run.toml").is_file() else ""
+            raise UserError(f"no scenario file {name}",
+                            f"give a name of `./hoap2 list` or the path of a .toml file{inside}")  # fmt: skip
         return path
     if name not in names():
         error = parameters.unknown("scenario", name, names())
