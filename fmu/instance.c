@@ -9,7 +9,7 @@
 static const char *const CATEGORY_NAMES[HOAP2_FMU_LOG_CATEGORIES] = {"logStatusError", "logStatusWarning",
                                                                      "logEvents"};
 /* Communication points that an importer adds up in floating point may be off by this part of a tick. */
-static const double TICK_TOLERANCE = 1e-3;
+static const double TICK_TOLERANCE = 0.1;
 static const double MAX_TICKS_PER_STEP = 1e9;
 
 hoap2_fmu_instance_t *hoap2_fmu_create(const char *name, hoap2_fmu_emit_t emit, void (*logger)(void),

@@ -30,6 +30,11 @@ static double mode_phase(const hoap2_state_t *state, double duration_s) {
 }
 
 static void start_up(hoap2_state_t *state, double q_ref_rad[]) {
+  if (!state->sense.started) { /* no good frame yet: stay */
+    copy_joints(state->out.q_ref_rad, q_ref_rad);
+    state->mode.mode_tick = -1;
+    return;
+  }
   if (state->mode.mode_tick == 0) copy_joints(state->held.q_enc_rad, state->start_q_rad);
   const double phase = mode_phase(state, state->params.start_up_s);
   blend_joints(state->start_q_rad, state->stance_q_rad, phase, q_ref_rad);
@@ -100,5 +105,5 @@ void hoap2_mode_step(hoap2_state_t *state, int good, double q_ref_rad[HOAP2_SIZE
     case HOAP2_MODE_CROUCH: crouch(state, q_ref_rad); break;
     default: copy_joints(state->out.q_ref_rad, q_ref_rad); break;
   }
-  if (state->mode.mode == mode) ++state->mode.mode_tick;
+  if (state->mode.mode == mode && state->mode.mode_tick < INT32_MAX) ++state->mode.mode_tick;
 }

@@ -6,19 +6,26 @@
 #define TICK_S (1e-6 * HOAP2_TICK_US)
 #define LIMIT_TOLERANCE_RAD 1e-9
 
-int hoap2_limit_references(const double q_last_rad[HOAP2_SIZE_JOINT], double q_ref_rad[HOAP2_SIZE_JOINT]) {
+int hoap2_clip_to_limits(double q_rad[HOAP2_SIZE_JOINT]) {
   int met = 0;
   for (int i = 0; i < HOAP2_SIZE_JOINT; ++i) {
+    const double low = HOAP2_JOINT[i].limit_soft_rad[0];
+    const double high = HOAP2_JOINT[i].limit_soft_rad[1];
+    if (q_rad[i] < low - LIMIT_TOLERANCE_RAD || q_rad[i] > high + LIMIT_TOLERANCE_RAD) met = 1;
+    if (q_rad[i] < low) q_rad[i] = low;
+    if (q_rad[i] > high) q_rad[i] = high;
+  }
+  return met;
+}
+
+int hoap2_limit_references(const double q_last_rad[HOAP2_SIZE_JOINT], double q_ref_rad[HOAP2_SIZE_JOINT]) {
+  for (int i = 0; i < HOAP2_SIZE_JOINT; ++i)
+    if (!(q_ref_rad[i] >= -1e3 && q_ref_rad[i] <= 1e3)) q_ref_rad[i] = q_last_rad[i];
+  const int met = hoap2_clip_to_limits(q_ref_rad);
+  for (int i = 0; i < HOAP2_SIZE_JOINT; ++i) {
     const double step = HOAP2_JOINT[i].velocity_limit_rad_s * TICK_S;
-    double q = q_ref_rad[i];
-    if (!(q >= -1e3 && q <= 1e3)) q = q_last_rad[i];
-    if (q < HOAP2_JOINT[i].limit_soft_rad[0] - LIMIT_TOLERANCE_RAD) met = 1;
-    if (q > HOAP2_JOINT[i].limit_soft_rad[1] + LIMIT_TOLERANCE_RAD) met = 1;
-    if (q < HOAP2_JOINT[i].limit_soft_rad[0]) q = HOAP2_JOINT[i].limit_soft_rad[0];
-    if (q > HOAP2_JOINT[i].limit_soft_rad[1]) q = HOAP2_JOINT[i].limit_soft_rad[1];
-    if (q > q_last_rad[i] + step) q = q_last_rad[i] + step;
-    if (q < q_last_rad[i] - step) q = q_last_rad[i] - step;
-    q_ref_rad[i] = q;
+    if (q_ref_rad[i] > q_last_rad[i] + step) q_ref_rad[i] = q_last_rad[i] + step;
+    if (q_ref_rad[i] < q_last_rad[i] - step) q_ref_rad[i] = q_last_rad[i] - step;
   }
   return met;
 }

@@ -22,13 +22,15 @@ static int frame_is_good(const hoap2_inputs_t *in) {
          all_within(in->cell_force_N, HOAP2_SIZE_CELL, MAX_CELL_N);
 }
 
+static int32_t one_more(int32_t count) { return count < INT32_MAX ? count + 1 : count; }
+
 int hoap2_watchdog_step(hoap2_state_t *state, const hoap2_inputs_t *inputs) {
   hoap2_mode_state_t *mode = &state->mode;
   const int good = frame_is_good(inputs);
   const int fresh = mode->tick == 0 || inputs->sensor_tick != mode->last_sensor_tick;
   mode->last_sensor_tick = inputs->sensor_tick;
-  mode->bad_ticks = good ? 0 : mode->bad_ticks + 1;
-  mode->stale_ticks = fresh ? 0 : mode->stale_ticks + 1;
+  mode->bad_ticks = good ? 0 : one_more(mode->bad_ticks);
+  mode->stale_ticks = fresh ? 0 : one_more(mode->stale_ticks);
   if (mode->bad_ticks > state->params.stale_limit_ticks) mode->fault |= HOAP2_FAULT_BAD_INPUT;
   if (mode->stale_ticks > state->params.stale_limit_ticks) mode->fault |= HOAP2_FAULT_STALE_INPUT;
   if (good) memcpy(&state->held, inputs, HOAP2_INPUTS_BYTES); /* no foreign padding */

@@ -54,6 +54,7 @@ typedef struct {
   int32_t stop_requested; /* the step under way is the last */
   int32_t pulled_back;    /* 1 when a leg target of this tick was out of reach */
   int32_t joint_limit;    /* 1 when a leg target of this tick met a joint limit */
+  int32_t cp_lost;        /* 1: the walk ended with the capture point off the soles */
   int32_t feedback;       /* 1: sensed values are used, 0: open loop */
 } hoap2_gait_t;
 

@@ -5,6 +5,11 @@
 namespace hoap2 {
 namespace {
 
+// Twice the area of a triangle that counts as none.
+constexpr double kInLine_m2 = 1e-10;
+
+double distance(const Point2& a, const Point2& b) { return hoap2_hypot(a.x - b.x, a.y - b.y); }
+
 double cross(const Point2& origin, const Point2& a, const Point2& b) {
   return (a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x);
 }
@@ -54,15 +59,16 @@ SupportPolygon sole_polygon(const double footprint[3], double margin_m) {
   return polygon;
 }
 
-// Gift wrapping over eight points.
+// Gift wrapping over eight points, begun at the corner farthest from the middle of the footprints: that one
+// is a vertex. Soles side by side have corners in one line up to rounding; of those the farthest is taken.
 SupportPolygon hull_of_soles(const double footprint_a[3], const double footprint_b[3], double margin_m) {
   Point2 points[8];
   add_sole(footprint_a, margin_m, points);
   add_sole(footprint_b, margin_m, points + 4);
+  const Point2 middle = {0.5 * (footprint_a[0] + footprint_b[0]), 0.5 * (footprint_a[1] + footprint_b[1])};
   int start = 0;
   for (int i = 1; i < 8; ++i)
-    if (points[i].x < points[start].x || (points[i].x == points[start].x && points[i].y < points[start].y))
-      start = i;
+    if (distance(points[i], middle) > distance(points[start], middle)) start = i;
   SupportPolygon polygon;
   int current = start;
   for (int k = 0; k < 8; ++k) {
@@ -70,11 +76,8 @@ SupportPolygon hull_of_soles(const double footprint_a[3], const double footprint
     int next = (current + 1) % 8;
     for (int i = 0; i < 8; ++i) {
       const double turn = cross(points[current], points[next], points[i]);
-      const bool farther =
-          turn == 0.0 &&
-          hoap2_hypot(points[i].x - points[current].x, points[i].y - points[current].y) >
-              hoap2_hypot(points[next].x - points[current].x, points[next].y - points[current].y);
-      if (turn < 0.0 || farther) next = i;
+      const bool farther = distance(points[i], points[current]) > distance(points[next], points[current]);
+      if (turn < -kInLine_m2 || (turn <= kInLine_m2 && farther)) next = i;
     }
     current = next;
     if (current == start) break;

@@ -32,7 +32,8 @@ void track_capture_point(const hoap2_params_t& params, const hoap2_sense_t& sens
   for (int i = 0; i < 2; ++i) {
     const double reference_m =
         gait.com_m[i] + gait.tpcc_m[i] + (gait.com_rate_m_s[i] + gait.tpcc_rate_m_s[i]) / gait.omega_1_s;
-    const double raw_m = clip(sense.cp_O_m[i] - reference_m, params.cp_deviation_limit_m);
+    const double raw_m =
+        gait.feedback ? clip(sense.cp_O_m[i] - reference_m, params.cp_deviation_limit_m) : 0.0;
     gait.cp_deviation_m[i] += kTick_s / (params.cp_filter_s + kTick_s) * (raw_m - gait.cp_deviation_m[i]);
   }
 }
@@ -112,7 +113,7 @@ void next_event(const hoap2_params_t& params, hoap2_gait_t& gait) {
   const bool settling = gait.swing_foot == 2 && gait.step_index > 0;
   if (settling) {
     gait.walking = 0;
-    gait.walk_done = gait.steps_done == total;
+    gait.walk_done = gait.steps_done == total && !gait.cp_lost;
     stand_still(gait);
     return;
   }
@@ -162,6 +163,7 @@ void map_to_joints(const hoap2_params_t& params, int passes, hoap2_gait_t& gait)
 // What a tick of a trial walk shows to be impossible.
 int32_t trial_fault(const hoap2_gait_t& trial, const double q_last_rad[HOAP2_SIZE_JOINT]) {
   if (trial.pulled_back || trial.joint_limit) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
+  if (trial.cp_lost) return HOAP2_FAULT_CAPTURE_POINT_LOST;
   if (trial.swing_foot != 2) {
     const int stance = 1 - trial.swing_foot;
     if (sole_clearance(trial.foot[stance], stance, trial.land) < kSoleClearance_m)
@@ -206,8 +208,8 @@ int32_t hoap2_gait_check_reach(const hoap2_params_t* params, const hoap2_gait_t*
   memset(&blind, 0, sizeof blind);
   trial.feedback = 0;
   hoap2_gait_start(params, &trial);
-  const int32_t ticks =
-      hoap2::step_ticks(params->start_shift_s) + hoap2::kReachSteps * hoap2::step_ticks(params->step_time_s);
+  const int32_t ticks = hoap2::step_ticks(4.0 / gait->omega_1_s) + hoap2::step_ticks(params->start_shift_s) +
+                        hoap2::kReachSteps * hoap2::step_ticks(params->step_time_s);
   int32_t fault = 0;
   for (int32_t tick = 0; tick < ticks && trial.walking; ++tick) {
     double q_last_rad[HOAP2_SIZE_JOINT];
@@ -229,9 +231,9 @@ void hoap2_gait_start(const hoap2_params_t* params, hoap2_gait_t* gait) {
 }
 
 void hoap2_gait_step(const hoap2_params_t* params, const hoap2_sense_t* sense, hoap2_gait_t* gait) {
-  if (gait->feedback) hoap2::track_capture_point(*params, *sense, *gait);
+  hoap2::track_capture_point(*params, *sense, *gait);
   if (gait->walking) {
-    const bool controlled = params->cp_controller != HOAP2_CP_CONTROLLER_PLAN && gait->feedback;
+    const bool controlled = params->cp_controller != HOAP2_CP_CONTROLLER_PLAN;
     double plan_cop_m[2];
     hoap2::planned_cop(*params, *gait, plan_cop_m);
     if (controlled)

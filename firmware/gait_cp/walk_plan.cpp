@@ -8,6 +8,10 @@
 namespace hoap2 {
 namespace {
 
+// A capture point farther than this outside both soles at the end of a walk is a fault, not rounding or
+// margin.
+constexpr double kCapturePointLost_m = 0.01;
+
 int other(int foot) { return 1 - foot; }
 
 // (7.8), (7.9) or its ramp form, and the clamp of 7.2.2 d.
@@ -101,6 +105,16 @@ void begin_settling(const hoap2_params_t& params, hoap2_gait_t& gait) {
   for (int i = 0; i < 2; ++i) {
     gait.cp_start_m[i] = gait.cp_ref_m[i] = i == 0 ? cp.x : cp.y;
     gait.cop_step_m[i] = gait.cop_from_m[i] = gait.cp_eos_m[i] = i == 0 ? inside.x : inside.y;
+  }
+  // Outside the soles the pendulum would fall away from the clamped CoP: the reference gives up the part of
+  // its rate that carries the capture point out.
+  if (inside_distance(polygon, cp) < -kCapturePointLost_m) {
+    gait.cp_lost = 1;
+    gait.step_ticks *= 2;  // the CoM has farther to come
+  }
+  if (inside_distance(polygon, cp) < 0.0) {
+    gait.com_rate_m_s[0] = gait.omega_1_s * (inside.x - gait.com_m[0]);
+    gait.com_rate_m_s[1] = gait.omega_1_s * (inside.y - gait.com_m[1]);
   }
   gait.swing_foot = 2;
 }

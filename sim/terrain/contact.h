@@ -9,7 +9,7 @@
 
 namespace hoap2_sim {
 
-constexpr int kMaxContacts = 160;
+constexpr int kMaxContacts = 320;
 
 struct Contact {
   int link;

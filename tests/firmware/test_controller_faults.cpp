@@ -173,6 +173,74 @@ TEST(ControllerFaults, AFasterSwingThanTheDrivesIsRefusedBeforeTheWalk) {
   expect_no_walk(params, HOAP2_FAULT_JOINT_TOO_FAST);
 }
 
+TEST(ControllerFaults, ParametersThatDoNotGoTogetherAreRefused) {
+  hoap2_params_t params = default_params();
+  params.contact_off_N = params.contact_on_N + 1.0;
+  expect_no_walk(params, HOAP2_FAULT_BAD_PARAMETER);
+  params = default_params();
+  params.tpcc_kx_1_s2 = params.tpcc_kp_1_s2;
+  expect_no_walk(params, HOAP2_FAULT_BAD_PARAMETER);
+  params = default_params();
+  params.crouch_posture_rad[HOAP2_J_R_KNEE] = -0.5;
+  expect_no_walk(params, HOAP2_FAULT_BAD_PARAMETER);
+}
+
+TEST(ControllerFaults, APostureBeyondTheLimitsNeverReachesTheDrives) {
+  hoap2_params_t params = default_params();
+  params.posture_rad[HOAP2_J_R_ELBOW] = 3.0;
+  hoap2_state_t state;
+  EXPECT_NE(hoap2_init(&state, &params), 0);
+  hoap2_outputs_t out;
+  hoap2_get_outputs(&state, &out);
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    EXPECT_GE(out.q_ref_rad[j], HOAP2_JOINT[j].limit_soft_rad[0]) << "joint " << j;
+    EXPECT_LE(out.q_ref_rad[j], HOAP2_JOINT[j].limit_soft_rad[1]) << "joint " << j;
+  }
+}
+
+TEST(ControllerFaults, StartUpWaitsForTheFirstGoodFrame) {
+  hoap2_params_t params = short_walk();
+  params.posture_rad[HOAP2_J_R_ELBOW] = -1.0;
+  Loop loop(params);
+  for (int k = 0; k < 3; ++k) {
+    loop.in.gyro_S_rad_s[0] = kNaN;
+    loop.tick();
+    EXPECT_EQ(loop.out.mode, HOAP2_MODE_START_UP);
+    EXPECT_EQ(loop.out.q_ref_rad[HOAP2_J_R_ELBOW], -1.0);
+  }
+  loop.tick();
+  EXPECT_EQ(loop.state.mode.mode_tick, 1);
+  EXPECT_NEAR(loop.state.start_q_rad[HOAP2_J_R_ELBOW], -1.0, 1e-12);
+}
+
+// A leg that meets a joint limit in mid-walk is clipped by the inverse kinematics: the fault word must say
+// so.
+TEST(ControllerFaults, ALegAtItsJointLimitIsTold) {
+  hoap2_state_t state;
+  const hoap2_params_t params = short_walk();
+  ASSERT_EQ(hoap2_init(&state, &params), 0);
+  state.gait.joint_limit = 1;
+  state.mode.mode = HOAP2_MODE_SAFE;  // the gait does not run: the flag stays as set
+  hoap2_inputs_t in;
+  hoap2_inputs_defaults(&in);
+  hoap2_outputs_t out;
+  hoap2_step(&state, &in, &out);
+  EXPECT_TRUE(out.fault & HOAP2_FAULT_JOINT_LIMIT);
+}
+
+// Off the soles the pendulum may not run away: the CoM comes back over them, and the walk is not called done.
+TEST(ControllerFaults, ALostCapturePointIsAFaultAndTheCoMComesBack) {
+  hoap2_params_t params = short_walk();
+  params.cp_controller = HOAP2_CP_CONTROLLER_PLAN;
+  Loop loop(params);
+  while (loop.out.steps_done < 5) loop.tick();
+  loop.state.gait.com_rate_m_s[1] += 0.9;  // 0.15 m of capture point
+  for (int k = 0; k < 2000; ++k) loop.tick();
+  EXPECT_TRUE(loop.out.fault & HOAP2_FAULT_CAPTURE_POINT_LOST);
+  EXPECT_EQ(loop.out.walk_done, 0);
+  EXPECT_LT(std::fabs(loop.out.com_plan_W_m[1]), 0.075);
+}
+
 TEST(ReferenceLimits, RatesAnglesAndNumbers) {
   for (int j = 0; j < HOAP2_JOINTS; ++j) {
     const hoap2_joint_data_t& joint = HOAP2_JOINT[j];

@@ -114,6 +114,31 @@ TEST(SupportPolygon, HullHoldsBothSolesAndIsConvex) {
   }
 }
 
+// Soles side by side at any heading: corners in one line but for rounding, where a wrap loses its way easily.
+TEST(SupportPolygon, HullOfParallelSolesAtAnyHeading) {
+  RandomPosture random(54);
+  for (int n = 0; n < 300000; ++n) {
+    const double yaw = random.uniform(-3.2, 3.2);
+    const double ahead = n % 2 == 0 ? 0.0 : random.uniform(-0.05, 0.05);
+    const double centre[3] = {random.uniform(-2, 2), random.uniform(-2, 2), yaw};
+    double right[3];
+    double left[3];
+    footprint_beside(centre, 0, 0.078, right);
+    const double forward[3] = {centre[0] + ahead * std::cos(yaw), centre[1] + ahead * std::sin(yaw), yaw};
+    footprint_beside(forward, 1, 0.078, left);
+    const SupportPolygon hull = hull_of_soles(right, left, 0.004);
+    const Point2 middle = {0.5 * (right[0] + left[0]), 0.5 * (right[1] + left[1])};
+    // the rear edges are the nearest: 36 mm behind the ankles, a little more or less along the slanted sides
+    const double expected = 0.036 * 0.078 / std::hypot(0.078, ahead);
+    ASSERT_GT(inside_distance(hull, middle), std::min(0.9 * expected, 0.02))
+        << "yaw " << yaw << " ahead " << ahead;
+    for (const double* footprint : {right, left}) {
+      const SupportPolygon sole = sole_polygon(footprint, 0.004);
+      for (int i = 0; i < sole.count; ++i) ASSERT_GE(inside_distance(hull, sole.vertex_m[i]), -1e-8);
+    }
+  }
+}
+
 TEST(SupportPolygon, ClampKeepsToTheLineOfTheCapturePoint) {
   RandomPosture random(53);
   int on_line = 0;

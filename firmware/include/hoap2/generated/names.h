@@ -9,13 +9,14 @@ typedef struct {
   const char *name;
   const char *text;
 } hoap2_fault_name_t;
-static const hoap2_fault_name_t HOAP2_FAULT_NAME[7] = {
+static const hoap2_fault_name_t HOAP2_FAULT_NAME[8] = {
   {1, "bad_input", "a sensor value was not finite or not possible for longer than the watchdog bridges"},
   {2, "stale_input", "sensor_tick stopped"},
   {4, "footprint_out_of_reach", "a footprint is out of reach: a leg is too short, a joint limit is met, or the soles would touch; take a shorter step, less turn or another width"},
   {8, "joint_limit", "a reference was clipped at a soft joint limit"},
-  {16, "bad_parameter", "a parameter is outside its range"},
+  {16, "bad_parameter", "a parameter is outside its range, or some do not go together: contact_off_N <= contact_on_N, tpcc_kx_1_s2 > tpcc_kp_1_s2 unless that is 0, crouch_posture_rad within the soft joint limits"},
   {32, "reach_limit", "a leg target beyond the straight leg was pulled back"},
+  {128, "capture_point_lost", "the walk ended with the capture point off the soles; the CoM was brought back over them at once"},
   {64, "joint_too_fast", "the walk asks for more joint rate than the drives have; take a shorter step, a lower lift or a longer step time"}};
-enum { HOAP2_FAULT_NAMES = 7 };
+enum { HOAP2_FAULT_NAMES = 8 };
 #endif

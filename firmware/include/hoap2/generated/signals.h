@@ -20,6 +20,7 @@ enum { HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH = 4 };
 enum { HOAP2_FAULT_JOINT_LIMIT = 8 };
 enum { HOAP2_FAULT_BAD_PARAMETER = 16 };
 enum { HOAP2_FAULT_REACH_LIMIT = 32 };
+enum { HOAP2_FAULT_CAPTURE_POINT_LOST = 128 };
 enum { HOAP2_FAULT_JOINT_TOO_FAST = 64 };
 enum { HOAP2_DRIVE_MODE_OFF = 0, HOAP2_DRIVE_MODE_POSITION = 1, HOAP2_DRIVE_MODE_TORQUE = 2, HOAP2_DRIVE_MODE_DAMPED_TORQUE = 3 };
 enum { HOAP2_BEHAVIOUR_STAND = 0, HOAP2_BEHAVIOUR_WALK_CP = 1 };
@@ -34,7 +35,7 @@ typedef struct {
   double gyro_S_rad_s[3]; /* angular velocity of the chest [rad/s] */
   double accel_S_m_s2[3]; /* specific force at the sensor (at rest: +g upward) [m/s2] */
   double cell_force_N[8]; /* foot force cells [N] */
-  int32_t sensor_tick; /* counter of sensor frames; a value that stops rising is a stale input */
+  int32_t sensor_tick; /* counter of sensor frames; a value that does not change is a stale input */
 } hoap2_inputs_t;
 /* bytes of its members, without the padding behind the last one */
 #define HOAP2_INPUTS_BYTES (offsetof(hoap2_inputs_t, sensor_tick) + sizeof(((const hoap2_inputs_t *)0)->sensor_tick))
