@@ -308,7 +308,7 @@ TEST(Fmi3, ARefusedParameterLeavesTheInputsOfTheSameCallAlone) {
   const hoap2_fmu_field_t& input = field_named("gyro_S_rad_s");
   const hoap2_fmu_field_t& tunable = field_named("tpcc_kp_1_s2");
   const unsigned rows[2] = {row_of(input), row_of(tunable)};
-  const double bad[4] = {1, 2, 3, tunable.high * 2}, good[4] = {1, 2, 3, tunable.high};
+  const double bad[4] = {1, 2, 3, tunable.high * 2}, good[4] = {1, 2, 3, tunable.high / 2};
   const std::vector<fmi3Byte> before = bytes_of(c);
   EXPECT_EQ(fmi3SetFloat64(c, rows, 2, bad, 4), fmi3Error);
   EXPECT_EQ(bytes_of(c), before);

@@ -41,8 +41,8 @@ def test_floor_walk_keeps_its_bounds_whatever_the_seed_draws(hoap2_cli, tmp_path
     done = hoap2_cli("run", "floor-walk", "--seeds", "1-20", "--no-video", "--out", "many", "--json", cwd=tmp_path,
                      timeout=1500)  # fmt: skip
     study = json.loads(done.stdout)
-    assert len(study["seeds"]) == 20 and study["runs_fallen"] == 0
-    assert done.returncode == 0 and study["runs_ok"] == 20, done.stderr
+    assert len(study["seeds"]) == 20 and study["runs_fallen"]["count"] == 0
+    assert done.returncode == 0 and study["runs_ok"]["count"] == 20, done.stderr
 
 
 class Loop:
