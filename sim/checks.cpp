@@ -40,6 +40,8 @@ const char *name_of_bad_parameter(const hoap2_plant_params_t &params, int bad) {
   HOAP2_TRY(cell_gain);
   HOAP2_TRY(chest_com_shift_L_m);
   HOAP2_TRY(floor_tilt_rad);
+  HOAP2_TRY(solver);
+  HOAP2_TRY(friction_law);
   HOAP2_TRY(friction_mu);
   HOAP2_TRY(contact_stiffness_N_m);
   HOAP2_TRY(contact_damping_Ns_m);
@@ -81,6 +83,10 @@ std::string fault_of_params(const hoap2_plant_params_t &params) {
       return std::string("parameter start_posture_rad: joint ") + HOAP2_JOINT_NAME[j] +
              " starts beyond its mechanical stop";
     }
+  }
+  if (params.solver == HOAP2_SOLVER_ODE && params.friction_law == HOAP2_FRICTION_LAW_CONE) {
+    return "parameter friction_law: ODE's solver knows only the pyramid; leave friction_law out, or take "
+           "solver = articulated";
   }
   return "";
 }

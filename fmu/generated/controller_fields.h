@@ -7,7 +7,7 @@
 #include "../product.h"
 #include "hoap2/generated/signals.h"
 
-#define HOAP2_FMU_TOKEN "{7707f8d4-d0db-e45e-57a6-c9da3c6f2a3f}"
+#define HOAP2_FMU_TOKEN "{f836bf3a-ff33-f8b4-9b17-b06ff1498d01}"
 enum { HOAP2_FMU_FIELDS = 81, HOAP2_FMU_ELEMENTS = 384 };
 
 /* name, group, kind, tunable, FMI 2 value reference of the first element, elements, offset, range */

@@ -7,8 +7,8 @@
 #include "../product.h"
 #include "hoap2_plant/generated/plant_signals.h"
 
-#define HOAP2_FMU_TOKEN "{22b540c1-cc55-f691-edc3-11554c96a67f}"
-enum { HOAP2_FMU_FIELDS = 58, HOAP2_FMU_ELEMENTS = 567 };
+#define HOAP2_FMU_TOKEN "{1867c797-e8a9-93a2-a693-44083f26732a}"
+enum { HOAP2_FMU_FIELDS = 60, HOAP2_FMU_ELEMENTS = 569 };
 
 /* name, group, kind, tunable, FMI 2 value reference of the first element, elements, offset, range */
 static const hoap2_fmu_field_t FIELDS[HOAP2_FMU_FIELDS] = {
@@ -68,8 +68,10 @@ static const hoap2_fmu_field_t FIELDS[HOAP2_FMU_FIELDS] = {
   {"push_ramp_s", HOAP2_FMU_PARAMETER, HOAP2_FMU_REAL, 0, 549u, 8u, offsetof(hoap2_plant_params_t, push_ramp_s), 0.0, 100000.0},
   {"seed", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 557u, 1u, offsetof(hoap2_plant_params_t, seed), 0.0, 2147483647.0},
   {"sensor_preset", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 558u, 1u, offsetof(hoap2_plant_params_t, sensor_preset), 0.0, 1.0},
-  {"block_count", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 559u, 1u, offsetof(hoap2_plant_params_t, block_count), 0.0, 16.0},
-  {"push_link", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 560u, 8u, offsetof(hoap2_plant_params_t, push_link), 0.0, 25.0},
+  {"solver", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 559u, 1u, offsetof(hoap2_plant_params_t, solver), 0.0, 1.0},
+  {"friction_law", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 560u, 1u, offsetof(hoap2_plant_params_t, friction_law), 0.0, 2.0},
+  {"block_count", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 561u, 1u, offsetof(hoap2_plant_params_t, block_count), 0.0, 16.0},
+  {"push_link", HOAP2_FMU_PARAMETER, HOAP2_FMU_INT, 0, 562u, 8u, offsetof(hoap2_plant_params_t, push_link), 0.0, 25.0},
 };
 
 static const char *const ELEMENT_NAMES[HOAP2_FMU_ELEMENTS] = {
@@ -631,6 +633,8 @@ static const char *const ELEMENT_NAMES[HOAP2_FMU_ELEMENTS] = {
   "push_ramp_s[8]",
   "seed",
   "sensor_preset",
+  "solver",
+  "friction_law",
   "block_count",
   "push_link[1]",
   "push_link[2]",

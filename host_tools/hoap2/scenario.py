@@ -13,7 +13,7 @@ from hoap2.errors import UserError
 from hoap2.generate.tables import PRODUCTS, ROOT
 
 FOLDER = ROOT / "sim" / "scenarios"
-SCENARIO_KEYS = {"name", "title", "section", "text", "duration_s", "sensors"}
+SCENARIO_KEYS = {"name", "title", "section", "text", "duration_s", "sensors", "solver"}
 RUN_KEYS = {"stop_after_fall_s": (0.0, 60.0), "settle_s": (0.0, 60.0), "stand_speed_m_s": (0.0, 1.0)}
 RUN_DEFAULTS = {"stop_after_fall_s": 1.0, "settle_s": 2.0, "stand_speed_m_s": 0.02}
 PUSH_KEYS = {"link", "force_W_N", "point_L_m", "start_s", "duration_s", "ramp_s"}
@@ -104,6 +104,8 @@ def _resolve(raw: dict, path: Path, overrides: list[str], sensors: str | None, d
     head = raw["scenario"]
     if "sensors" in head:
         raw.setdefault("plant", {})["sensor_preset"] = head["sensors"]
+    if "solver" in head:
+        raw.setdefault("plant", {})["solver"] = head["solver"]
     _expand(raw, "push", PUSH_KEYS, "push", _push)
     _expand(raw, "block", BLOCK_KEYS, "block", _block)
     values, explicit = _parameters(raw)

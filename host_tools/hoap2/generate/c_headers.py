@@ -78,13 +78,16 @@ def signals_header(table: Table, product: str, prefix: str) -> str:
     """Structs `<prefix>_{inputs,outputs,params}_t`, defaults and range checks of one product."""
     used = {s.enum for s in table.signals if s.product == product and s.enum}
     # both products speak of the drive modes: the firmware's header owns them
+    shared = {s.enum for s in table.signals if s.product == "controller" and s.enum} | {"sensor_preset"}
     body = ""
     if product == "controller":
-        used |= {"sensor_preset"}
+        used |= shared
         body += f"enum {{ HOAP2_TICK_US = {table.tick_us}, HOAP2_SCHEMA = {table.schema} }};\n"
         body += "\n".join(f"enum {{ HOAP2_SIZE_{k.upper()} = {v} }};" for k, v in table.sizes.items()) + "\n"
         body += "\n".join(f"enum {{ HOAP2_FAULT_{k.upper()} = {v} }};" for k, v in table.faults.items()) + "\n"
         body += _enums(table, used) + "\n"
+    else:
+        body += _enums(table, used - shared) + "\n"
     for group, tag in (("input", "inputs"), ("output", "outputs"), ("parameter", "params")):
         body += _struct(table, product, group, f"{prefix}_{tag}") + "\n"
     body += _defaults(table, product, "input", f"{prefix}_inputs") + "\n"

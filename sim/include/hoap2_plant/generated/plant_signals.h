@@ -6,6 +6,9 @@
 #include <stdint.h>
 #include "hoap2/generated/signals.h"
 
+enum { HOAP2_SOLVER_ARTICULATED = 0, HOAP2_SOLVER_ODE = 1 };
+enum { HOAP2_FRICTION_LAW_OF_SOLVER = 0, HOAP2_FRICTION_LAW_CONE = 1, HOAP2_FRICTION_LAW_PYRAMID = 2 };
+
 typedef struct {
   double q_ref_rad[25]; /* joint angle reference [rad] */
   double qd_ref_rad_s[25]; /* joint rate reference [rad/s] */
@@ -73,6 +76,8 @@ typedef struct {
   double push_ramp_s[8]; /* quintic ramp at each end; 0 = rectangular [s] */
   int32_t seed; /* seed of the sensor noise */
   int32_t sensor_preset; /* ideal, or hoap2: quantised, band-limited, noisy, one frame late */
+  int32_t solver; /* what solves a tick's equations: the articulated solver, or ODE's dWorldStep */
+  int32_t friction_law; /* Coulomb friction as a cone, or as ODE's pyramid; of_solver: cone for articulated, pyramid for ode (which has no cone) */
   int32_t block_count; /* number of terrain blocks (steps, edges) */
   int32_t push_link[8]; /* link of each push, in the order of hoap2.json */
 } hoap2_plant_params_t;
@@ -120,6 +125,8 @@ static inline void hoap2_plant_params_defaults(hoap2_plant_params_t *p) {
   for (int i_ = 0; i_ < 8; ++i_) ((double *)(void *)&(p)->push_ramp_s)[i_] = 0.0;
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->seed)[i_] = 0;
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->sensor_preset)[i_] = 1;
+  for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->solver)[i_] = 0;
+  for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->friction_law)[i_] = 0;
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->block_count)[i_] = 0;
   for (int i_ = 0; i_ < 8; ++i_) ((int32_t *)(void *)&(p)->push_link)[i_] = 0;
 }
@@ -153,6 +160,8 @@ static inline int hoap2_plant_params_out_of_range(const hoap2_plant_params_t *p)
   for (int i_ = 0; i_ < 8; ++i_) { const double v_ = ((const double *)(const void *)&p->push_ramp_s)[i_]; if (!(v_ >= 0.0 && v_ <= 100000.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->seed)[i_]; if (!(v_ >= 0 && v_ <= 2147483647)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->sensor_preset)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->solver)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->friction_law)[i_]; if (!(v_ >= 0 && v_ <= 2)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->block_count)[i_]; if (!(v_ >= 0 && v_ <= 16)) ++bad_; }
   for (int i_ = 0; i_ < 8; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->push_link)[i_]; if (!(v_ >= 0 && v_ <= 25)) ++bad_; }
   return bad_;
