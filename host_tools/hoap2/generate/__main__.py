@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from . import c_headers, fmi, fmi_pages, pages, ssp, urdf
+from . import c_headers, fmi, fmi_pages, mjcf, pages, ssp, urdf
 from .tables import PRODUCTS, ROOT, Table, load
 
 
@@ -19,6 +19,7 @@ def outputs() -> dict[str, str]:
         f"{firmware}/names.h": c_headers.names_header(table),
         "sim/include/hoap2_plant/generated/plant_signals.h": c_headers.signals_header(table, "plant", "hoap2_plant"),
         "sim/model/hoap2.urdf": urdf.urdf(table),
+        "sim/model/hoap2_mjcf.xml": mjcf.mjcf(table),
         "docs/generated/signals.md": pages.signals_page(table),
         **_fmu_outputs(table),
     }
