@@ -1,43 +1,32 @@
 """The co-simulation master: Jacobi, one tick a step, both products as equal partners.
 
-At each communication point all outputs of both are read and logged, then the
+At each communication point all outputs of both are read into the log, then the
 inputs of both are set, then both step. So neither sees the other's new values
 before the next point, and any master that does the same gets the same figures.
 """
 
 from __future__ import annotations
 
+import array
 import math
 import signal
 import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 
 from hoap2 import metrics, parameters
 from hoap2.errors import UserError
-from hoap2.signal_log import PREFIX, Column, SignalLog
+from hoap2.exchange import Recorder, Side, check_connections, connect, log_columns, writer
+from hoap2.signal_log import SignalLog
+
+__all__ = ["Outcome", "Recorder", "Side", "StopRequest", "Timing", "connect", "log_columns", "run"]
 
 HOUSEKEEPING_TICKS = 10
+FALL_WATCH_TICKS = 100  # at most this long between two looks for a fall
 PROGRESS_PERIOD_NS = 100_000_000
-
-
-class Side(Protocol):
-    """What the master needs of a product, be it an FMU or a library."""
-
-    outputs: list[Column]  # without prefix, reals first
-    inputs: list[Column]
-    real_out: np.ndarray  # float64, filled by get_outputs
-    int_out: np.ndarray  # int32
-    real_in: np.ndarray  # taken by set_inputs; starts at the product's defaults
-    int_in: np.ndarray
-
-    def get_outputs(self) -> None: ...
-    def set_inputs(self) -> None: ...
-    def step(self) -> None: ...
 
 
 class StopRequest:
@@ -66,28 +55,31 @@ class StopRequest:
         self._restore()
 
 
-@dataclass
 class Timing:
-    """Wall-clock durations; nothing here may reach the signals."""
+    """Wall-clock durations of the loop's parts, a tick each; nothing here may reach the signals."""
 
-    controller_ns: np.ndarray
-    plant_ns: np.ndarray
-    loop_s: float = 0.0
-    ticks: int = 0
+    PARTS = ("set", "controller", "plant", "get_and_log")  # in the order of a tick
+
+    def __init__(self, capacity: int) -> None:
+        # array.array takes a number in half the time that a NumPy array needs
+        self.ns = {part: array.array("q", bytes(8 * capacity)) for part in self.PARTS}
+        self.loop_s = 0.0
+        self.ticks = 0
+
+    def _spread(self, part: str) -> dict:
+        if not self.ticks:
+            return {"median": None, "p99": None}
+        median, p99 = np.percentile(np.frombuffer(self.ns[part], dtype=np.int64)[: self.ticks], (50, 99))
+        return {"median": float(median) / 1e3, "p99": float(p99) / 1e3}
 
     def summary(self) -> dict:
-        def spread(ns: np.ndarray) -> dict:
-            if not self.ticks:
-                return {"median": None, "p99": None}
-            return {"median": float(np.median(ns)) / 1e3, "p99": float(np.percentile(ns, 99)) / 1e3}
-
-        tick_s = parameters.table().tick_us / 1e6
-        steps_ns = float(self.controller_ns[: self.ticks].sum() + self.plant_ns[: self.ticks].sum())
+        """Medians and 99th percentiles; `exchange_and_log_us` is all of the loop but the steps, its mean a tick."""
+        steps_ns = sum(sum(self.ns[part][: self.ticks]) for part in ("controller", "plant"))
         rest = (self.loop_s * 1e6 - steps_ns / 1e3) / self.ticks if self.ticks else None
+        simulated_s = self.ticks * parameters.table().tick_us / 1e6
         return {
-            "real_time_factor": self.ticks * tick_s / self.loop_s if self.loop_s > 0 else None,
-            "controller_us": spread(self.controller_ns[: self.ticks]),
-            "plant_us": spread(self.plant_ns[: self.ticks]),
+            "real_time_factor": simulated_s / self.loop_s if self.loop_s > 0 else None,
+            **{f"{part}_us": self._spread(part) for part in ("controller", "plant", "set", "get_and_log")},
             "exchange_and_log_us": rest,
             "loop_s": self.loop_s,
         }
@@ -104,77 +96,15 @@ class Outcome:
     warnings: list[str] = field(default_factory=list)
 
 
-def connect(source: Side, target: Side) -> list[tuple[np.ndarray, np.ndarray, np.ndarray | slice, np.ndarray | slice]]:
-    """Connections by equal names: (target array, source array, target index, source index), reals and ints."""
-    wires = []
-    for kind, into, out in (("real", "real_in", "real_out"), ("int", "int_in", "int_out")):
-        where = {c.name: i for i, c in enumerate([c for c in source.outputs if c.kind == kind])}
-        targets = [c.name for c in target.inputs if c.kind == kind]
-        pairs = [(i, where[name]) for i, name in enumerate(targets) if name in where]
-        if pairs:
-            index_in, index_out = (_as_slice(np.array(index)) for index in zip(*pairs))
-            wires.append((getattr(target, into), getattr(source, out), index_in, index_out))
-    return wires
-
-
-def _as_slice(index: np.ndarray) -> np.ndarray | slice:
-    """A run of neighbours as a slice, which copies faster than a list of places."""
-    contiguous = np.array_equal(index, np.arange(index[0], index[0] + index.size))
-    return slice(int(index[0]), int(index[0]) + index.size) if contiguous else index
-
-
-def check_connections(controller: Side, plant: Side) -> None:
-    """An input of either side that the other does not drive is an error, not a default."""
-    for target, source, who, other in (
-        (controller, plant, "controller", "plant"),
-        (plant, controller, "plant", "controller"),
-    ):
-        have = {(c.name, c.kind) for c in source.outputs}
-        missing = [c.name for c in target.inputs if (c.name, c.kind) not in have]
-        if missing:
-            raise UserError(
-                f"the {other} has no output for {len(missing)} input(s) of the {who}: {', '.join(missing[:5])}",
-                "both must use the names of docs/generated/signals.md",
-            )
-
-
-def log_columns(controller: Side, plant: Side) -> list[Column]:
-    """The log's columns: both products' outputs with their prefixes."""
-    return [
-        Column(PREFIX[product] + c.name, c.unit, c.kind)
-        for product, side in (("controller", controller), ("plant", plant))
-        for c in side.outputs
-    ]
-
-
-class Recorder:
-    """Copies both products' outputs into the log's next row."""
-
-    def __init__(self, controller: Side, plant: Side, log: SignalLog) -> None:
-        self.log = log
-        self.c, self.p = controller, plant
-        self.real_split = controller.real_out.size
-        self.int_split = controller.int_out.size
-
-    def row(self) -> None:
-        log, k = self.log, self.log.count
-        real, integer = log.real[k], log.integer[k]
-        real[: self.real_split] = self.c.real_out
-        real[self.real_split :] = self.p.real_out
-        integer[: self.int_split] = self.c.int_out
-        integer[self.int_split :] = self.p.int_out
-        log.count = k + 1
-
-
 def run(controller: Side, plant: Side, ticks: int, stop_after_fall_s: float, stop: StopRequest,
         progress: Callable[[SignalLog], None] | None = None) -> Outcome:  # fmt: skip
     """Step both initialised sides `ticks` times, or until a fall, an error or a stop request."""
     check_connections(controller, plant)
     log = SignalLog(log_columns(controller, plant), ticks + 1)
-    outcome = Outcome(log, Timing(np.zeros(ticks, dtype=np.int64), np.zeros(ticks, dtype=np.int64)))
+    outcome = Outcome(log, Timing(ticks))
     started = time.perf_counter()
     try:
-        _loop(controller, plant, ticks, stop_after_fall_s, stop, progress, outcome)
+        _run(_Loop(controller, plant, outcome), ticks, _FallWatch(log, stop_after_fall_s), stop, progress)
     except Exception as error:  # whatever a product throws: the run so far is kept and marked
         outcome.error = f"{type(error).__name__} at t = {outcome.timing.ticks * 1e-3:.3f} s: {error}"
     outcome.timing.loop_s = time.perf_counter() - started
@@ -182,43 +112,62 @@ def run(controller: Side, plant: Side, ticks: int, stop_after_fall_s: float, sto
     return outcome
 
 
-def _loop(controller: Side, plant: Side, ticks: int, stop_after_fall_s: float, stop: StopRequest,
-          progress: Callable[[SignalLog], None] | None, outcome: Outcome) -> None:  # fmt: skip
-    log, timing = outcome.log, outcome.timing
-    recorder = Recorder(controller, plant, log)
-    wires = connect(plant, controller) + connect(controller, plant)
-    fall = _FallWatch(log, stop_after_fall_s)
+def _run(loop: _Loop, ticks: int, fall: _FallWatch, stop: StopRequest,
+         progress: Callable[[SignalLog], None] | None) -> None:  # fmt: skip
+    """A few ticks at a time, with what need not be done every tick between them."""
     now = time.perf_counter_ns
     next_progress = now()
-    k, last = 0, ticks
-    while True:
-        controller.get_outputs()
-        plant.get_outputs()
-        recorder.row()
-        if k >= last:
-            break
-        if k % HOUSEKEEPING_TICKS == 0:
-            if stop.signal is not None:
-                break
-            last = min(last, fall.last_tick())
-            if progress is not None and now() >= next_progress:
-                progress(log)
-                next_progress = now() + PROGRESS_PERIOD_NS
-        for into, out, index_in, index_out in wires:
-            into[index_in] = out[index_out]
-        controller.set_inputs()
-        plant.set_inputs()
-        t0 = now()
-        controller.step()
-        t1 = now()
-        plant.step()
-        t2 = now()
-        timing.controller_ns[k] = t1 - t0
-        timing.plant_ns[k] = t2 - t1
-        k += 1
-        timing.ticks = k
+    done, last = 0, ticks
+    loop.recorder.row()
+    while done < last and stop.signal is None:
+        last = min(last, fall.last_tick(done))
+        if progress is not None and now() >= next_progress:
+            progress(loop.log)
+            next_progress = now() + PROGRESS_PERIOD_NS
+        # an end that has passed already, by a fall seen late, is followed by one tick more
+        end = max(done + 1, min(last, done + HOUSEKEEPING_TICKS))
+        loop.advance(done, end)
+        done = end
     if progress is not None:
-        progress(log)
+        progress(loop.log)
+
+
+class _Loop:
+    """Exchange, step and log, tick by tick."""
+
+    def __init__(self, controller: Side, plant: Side, outcome: Outcome) -> None:
+        self.log, self.timing = outcome.log, outcome.timing
+        self.recorder = Recorder(controller, plant, self.log)
+        of_controller, of_plant = self.recorder.parts
+        self.writes = writer(plant, controller, *of_plant), writer(controller, plant, *of_controller)
+        self.steps = controller.step, plant.step
+
+    def advance(self, first: int, last: int) -> None:
+        """Ticks first to last - 1; the rows up to `last` are filled. What was done before an error is counted."""
+        set_controller, set_plant = self.writes
+        step_controller, step_plant = self.steps
+        get_controller, get_plant = self.recorder.reads
+        set_ns, controller_ns, plant_ns, get_ns = (self.timing.ns[part] for part in Timing.PARTS)
+        now, done = time.perf_counter_ns, first
+        t3 = now()
+        try:
+            for k in range(first, last):
+                set_controller(k)
+                set_plant(k)
+                t0 = now()
+                step_controller()
+                t1 = now()
+                step_plant()
+                t2 = now()
+                done += 1
+                get_controller(done)
+                get_plant(done)
+                set_ns[k], controller_ns[k], plant_ns[k] = t0 - t3, t1 - t0, t2 - t1
+                t3 = now()
+                get_ns[k] = t3 - t2
+                self.log.count = done + 1
+        finally:
+            self.timing.ticks = done
 
 
 class _FallWatch:
@@ -227,12 +176,17 @@ class _FallWatch:
     def __init__(self, log: SignalLog, stop_after_fall_s: float) -> None:
         self.log, self.seen, self.end = log, 0, math.inf
         self.extra = round(stop_after_fall_s * 1e6 / parameters.table().tick_us)
+        # A fall is to be seen before the run's end that follows from it, so that this end is exact.
+        self.period = max(1, min(self.extra, FALL_WATCH_TICKS) // HOUSEKEEPING_TICKS) * HOUSEKEEPING_TICKS
         names = ("p.true_chest_rpy_rad.x", "p.true_chest_rpy_rad.y", "p.other_contacts")
         missing = [name[2:] for name in names if name not in log]
         if missing:
             raise UserError(f"the plant does not tell {', '.join(missing)}: a fall could not be seen")
 
-    def last_tick(self) -> float:
+    def last_tick(self, tick: int) -> float:
+        """The last tick of the run as far as is known at this one."""
+        if tick % self.period:
+            return self.end
         rows = slice(self.seen, self.log.count)
         tilt = metrics.chest_tilt_rad(self.log.column("p.true_chest_rpy_rad.x")[rows],
                                       self.log.column("p.true_chest_rpy_rad.y")[rows])  # fmt: skip

@@ -45,7 +45,8 @@ class FmuSide:
         self.inputs = [Column(element, s.unit, s.kind) for s in rows for element in table.element_names(s)]
         self.real_out, self.int_out = instance.outputs_real, instance.outputs_int
         self.real_in, self.int_in = instance.inputs_real, instance.inputs_int
-        self.get_outputs, self.set_inputs, self.step = instance.read, instance.write, instance.step
+        self.get_outputs, self.set_inputs, self.step = instance.read, instance.write, instance.stepper()
+        self.reads_into, self.writes_from = instance.reads_into, instance.writes_from
 
 
 @dataclass

@@ -67,6 +67,60 @@ def test_start_values_are_the_defaults_of_the_table(files: FmuSet, product: str,
             assert array[fmu.input_slices[s.name]].tolist() == list(s.default)
 
 
+@pytest.mark.parametrize(("product", "version"), FLAVOURS)
+def test_rows_carry_what_the_arrays_carry(files: FmuSet, product: str, version: int) -> None:
+    """Rows inside of wider arrays, as the log's are; what stands beside them stays."""
+    with open_fmu(files, product, version) as fmu, open_fmu(files, product, version) as other:
+        for each in (fmu, other):
+            each.initialize()
+        sizes = {"in": (fmu.inputs_real.size, fmu.inputs_int.size), "out": (fmu.outputs_real.size, fmu.outputs_int.size)}
+        given = np.full((3, sizes["in"][0] + 5), 0.25), np.full((3, sizes["in"][1] + 5), 1, dtype=np.int32)
+        found = np.full((3, sizes["out"][0] + 5), np.nan), np.full((3, sizes["out"][1] + 5), -7, dtype=np.int32)
+        write = fmu.writes_from(*(a[:, 2:-3] for a in given))
+        read = fmu.reads_into(*(a[:, 2:-3] for a in found))
+        step = fmu.stepper()
+        for k in (1, 2):
+            given[0][k] *= k
+            other.inputs_real[:], other.inputs_int[:] = given[0][k, 2:-3], given[1][k, 2:-3]
+            other.write()
+            other.step()
+            other.read()
+            write(k)
+            step()
+            read(k)
+            assert found[0][k, 2:-3].tobytes() == other.outputs_real.tobytes()
+            assert found[1][k, 2:-3].tobytes() == other.outputs_int.tobytes()
+        assert fmu.tick == other.tick == 2 and fmu.serialize() == other.serialize()
+        assert np.isnan(found[0][0]).all() and (found[1][0] == -7).all()
+        for a, rest in ((found[0], np.isnan), (found[1], lambda x: x == -7)):
+            assert rest(a[:, :2]).all() and rest(a[:, -3:]).all()
+
+
+def test_rows_that_fmi_cannot_take_are_refused(files: FmuSet) -> None:
+    with open_fmu(files, "plant", 3) as fmu:
+        reals, ints = fmu.outputs_real.size, fmu.outputs_int.size
+        integer = np.zeros((2, ints), dtype=np.int32)
+        for real in (
+            np.zeros((2, reals + 1)),
+            np.zeros((2, 2 * reals))[:, ::2],
+            np.zeros((2, reals), dtype=np.float32),
+            np.zeros(reals),
+        ):
+            with pytest.raises(ValueError, match=f"rows of {reals} neighbouring float64"):
+                fmu.reads_into(real, integer)
+
+
+def test_a_refused_step_of_the_stepper_is_told(files: FmuSet) -> None:
+    with open_fmu(files, "plant", 3) as fmu:
+        fmu.initialize(stop_time_s=0.002)
+        step = fmu.stepper()
+        step()
+        step()
+        with pytest.raises(FmuCallError, match="refused DoStep at 0.002 s.*stop time"):
+            step()
+        assert fmu.tick == 2
+
+
 @pytest.mark.parametrize("version", [2, 3])
 def test_parameters_by_row_by_element_and_broadcast(files: FmuSet, version: int) -> None:
     with open_fmu(files, "plant", version) as fmu:

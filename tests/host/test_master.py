@@ -8,7 +8,7 @@ import signal
 import numpy as np
 import pytest
 
-from hoap2 import master
+from hoap2 import exchange, master
 from hoap2.errors import UserError
 from hoap2.signal_log import Column, read
 from sides import FakeSide, falling_plant, standing_plant, stepping_controller
@@ -51,16 +51,91 @@ def test_all_connections_of_the_table_carry_their_own_signal():
             assert value == sent[column.name]
 
 
+class RowSide(FakeSide):
+    """Takes and gives rows of the log as an FMU does; counts them."""
+
+    def reads_into(self, real, integer):
+        def read(k):
+            real[k], integer[k] = self.real_out, self.int_out
+
+        return read
+
+    def writes_from(self, real, integer):
+        assert all(rows.strides[1] == rows.itemsize for rows in (real, integer) if rows.shape[1] > 1)
+        self.rows_taken = 0
+
+        def write(k):
+            self.real_in[:], self.int_in[:] = real[k], integer[k]
+            self.rows_taken += 1
+
+        return write
+
+    def get_outputs(self):
+        raise AssertionError("rows are read instead")
+
+
+def noisy(side: FakeSide, tick: int) -> None:
+    """Outputs that depend on all that the side was given."""
+    phase = np.arange(side.real_out.size) + side.real_in @ np.cos(np.arange(side.real_in.size)) + side.int_in.sum()
+    side.real_out[:] = 0.1 * np.sin(phase)
+    side.int_out[:] = np.arange(side.int_out.size) * (tick % 7)
+    if any(c.name == "other_contacts" for c in side.outputs):
+        side.put("other_contacts", 0)
+
+
+def test_sides_that_take_rows_get_the_same_values_as_those_that_take_copies():
+    copied = run(FakeSide("controller", noisy), FakeSide("plant", noisy), 40).log
+    sides = RowSide("controller", noisy), RowSide("plant", noisy)
+    direct = run(*sides, 40).log
+    assert copied.count == direct.count == 41 and np.ptp(direct.real[:, :100], axis=0).all()
+    assert copied.real.tobytes() == direct.real.tobytes() and copied.integer.tobytes() == direct.integer.tobytes()
+    assert sides[0].rows_taken == sides[1].rows_taken == 40
+
+
+def test_outputs_in_another_order_reach_their_inputs():
+    rng = np.random.default_rng(4)
+    controller, plant = RowSide("controller"), RowSide("plant")
+    plant.real_out[:] = rng.normal(size=plant.real_out.size)
+    plant.put("true_chest_rpy_rad", 0.0)
+    reals = [c for c in plant.outputs if c.kind == "real"]
+    order = rng.permutation(len(reals))
+    plant.outputs = [reals[i] for i in order] + [c for c in plant.outputs if c.kind == "int"]
+    plant.real_out[:] = plant.real_out[order]
+    outcome = run(controller, plant, 3)
+    sent = dict(zip([c.name for c in plant.outputs], plant.real_out))
+    assert outcome.error is None and not hasattr(controller, "rows_taken") and plant.rows_taken == 3
+    assert controller.real_in.tolist() == [sent[c.name] for c in controller.inputs if c.kind == "real"]
+
+
+def test_an_input_without_a_source_keeps_its_value():
+    controller, plant = RowSide("controller"), FakeSide("plant")
+    controller.inputs = [Column("wind_m_s", "m/s", "real"), *controller.inputs]
+    controller.real_in = np.full(controller.real_in.size + 1, 5.0)
+    real, integer = np.ones((2, plant.real_out.size)), np.ones((2, plant.int_out.size), dtype=np.int32)
+    exchange.writer(plant, controller, real, integer)(1)
+    assert controller.real_in.tolist() == [5.0] + [1.0] * (controller.real_in.size - 1)
+
+
+def test_timing_adds_up():
+    timing = run(stepping_controller(), standing_plant(), 25).timing
+    summary = timing.summary()
+    parts_s = sum(sum(ns[: timing.ticks]) for ns in timing.ns.values()) / 1e9
+    assert 0.0 < parts_s <= summary["loop_s"] and all(min(ns) > 0 for ns in timing.ns.values())
+    steps_s = sum(sum(timing.ns[part]) for part in ("controller", "plant")) / 1e9
+    assert summary["exchange_and_log_us"] * 25 / 1e6 == pytest.approx(summary["loop_s"] - steps_s)
+
+
 def test_row_k_holds_tick_k_and_the_last_state_is_logged():
     outcome = run(stepping_controller(), standing_plant(lambda side, tick: side.put("plant_tick", tick)), 25)
     assert outcome.log.count == 26 and outcome.log.column("p.plant_tick").tolist() == list(range(26))
     assert outcome.timing.ticks == 25 and outcome.error is None and not outcome.interrupted
 
 
-@pytest.mark.parametrize("after_fall_s", [0.0, 0.05, 1.0])
-def test_a_run_ends_a_while_after_the_fall(after_fall_s):
-    outcome = run(stepping_controller(), falling_plant(100, rate_rad_s=10.0), 3000, after_fall_s=after_fall_s)
-    fall = 100 + int(np.floor(np.pi / 4 / 0.01)) + 1
+@pytest.mark.parametrize("start_tick", [100, 101, 107])
+@pytest.mark.parametrize("after_fall_s", [0.0, 0.015, 0.05, 0.137, 1.0])
+def test_a_run_ends_a_while_after_the_fall(start_tick, after_fall_s):
+    outcome = run(stepping_controller(), falling_plant(start_tick, rate_rad_s=10.0), 3000, after_fall_s=after_fall_s)
+    fall = start_tick + int(np.floor(np.pi / 4 / 0.01)) + 1
     late = outcome.log.count - 1 - (fall + round(after_fall_s * 1000))
     assert 0 <= late <= master.HOUSEKEEPING_TICKS, "the fall is looked for every few ticks"
     if after_fall_s > 0.01:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 import numpy.typing as npt
@@ -28,11 +28,30 @@ class Exchange:
             references += row.references
         self.array = np.zeros(len(self.element_names), dtype=DTYPE[kind])
         self._references = (ctypes.c_uint32 * len(references))(*references)
-        pointer = ctypes.c_void_p(self.array.ctypes.data)
-        count = ctypes.c_size_t(len(references))
-        self.arguments = (self._references, count, pointer)
-        if version == 3:
-            self.arguments += (ctypes.c_size_t(self.array.size),)
+        self._count = ctypes.c_size_t(len(references))
+        self._sizes = (ctypes.c_size_t(self.array.size),) if version == 3 else ()
+        self.arguments = self.arguments_for(ctypes.c_void_p(self.array.ctypes.data))
+
+    def arguments_for(self, values: ctypes.c_void_p) -> tuple:
+        """The FMI call's arguments after the instance, for values at this address (which may change later)."""
+        return (self._references, self._count, values, *self._sizes)
+
+    def check_rows(self, rows: np.ndarray) -> None:
+        """Each row of (ticks, elements) can be handed to FMI as it lies in memory."""
+        fits = rows.ndim == 2 and rows.dtype == self.array.dtype and rows.shape[1] == self.array.size
+        if not fits or (rows.shape[1] > 1 and rows.strides[1] != rows.itemsize):
+            raise ValueError(f"rows of {self.array.size} neighbouring {self.array.dtype} are needed")
+
+
+class RowCall:
+    """An FMI call that moves its values from or to rows of an array, which stay where they are."""
+
+    def __init__(self, function: Callable[..., int], handle: ctypes.c_void_p, part: Exchange, rows: np.ndarray):
+        part.check_rows(rows)
+        self.function, self.rows = function, rows  # `rows` kept: the call has but its address
+        self.values = ctypes.c_void_p()
+        self.arguments = (handle, *part.arguments_for(self.values))
+        self.address, self.stride = rows.ctypes.data, rows.strides[0]
 
 
 class ParameterValues:

@@ -8,7 +8,7 @@ buffers: fill or read them in place, `write()` and `read()` move them in one FMI
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import fmpy.fmi2
@@ -17,7 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .archive import FmuArchive, FmuCallError, FmuError, FmuFileError, FmuVariableError, nearest
-from .buffers import DTYPE, Exchange, ParameterValues
+from .buffers import DTYPE, Exchange, ParameterValues, RowCall
+from .states import FmuState, WithStates, state_call
 
 __all__ = ["FmuArchive", "FmuCallError", "FmuError", "FmuFileError", "FmuInstance", "FmuState", "FmuVariableError"]
 
@@ -25,22 +26,7 @@ OK_OR_WARNING = 1
 KEPT_LOG_LINES = 200
 
 
-class FmuState:
-    """A saved state of one instance; freed with it, or before by release()."""
-
-    def __init__(self, owner: FmuInstance, pointer: ctypes.c_void_p, tick: int | None):
-        self.owner, self.pointer, self.tick = owner, pointer, tick
-        owner.states.append(self)
-
-    def release(self) -> None:
-        """Give the memory back; harmless when done twice."""
-        if self.pointer and self.owner.component:
-            self.owner.call("FreeFMUState", ctypes.byref(self.pointer))
-            self.owner.states.remove(self)
-        self.pointer = ctypes.c_void_p()
-
-
-class FmuInstance:
+class FmuInstance(WithStates):
     """A Co-Simulation FMU, FMI 2.0 or 3.0, with the variables of signals.toml."""
 
     def __init__(
@@ -122,9 +108,13 @@ class FmuInstance:
         self.output_names_int = parts["output", "int"].element_names
         prefix = f"fmi{self.version}"
         names = {"real": "Real", "int": "Integer"} if self.version == 2 else {"real": "Float64", "int": "Int32"}
-        self._writers = self._bind(f"{prefix}Set", names, "input", parts)
-        self._readers = self._bind(f"{prefix}Get", names, "output", parts)
-        self._exchange = parts
+        self._parts = parts
+        self._functions = {
+            (group, kind): getattr(self._library, prefix + verb + names[kind])
+            for group, verb in (("input", "Set"), ("output", "Get"))
+            for kind in ("real", "int")
+        }
+        self._writers, self._readers = self._calls("input"), self._calls("output")
         self._now, self._size = ctypes.c_double(), ctypes.c_double()
         self._do_step = getattr(self._library, f"{prefix}DoStep")
         if self.version == 2:
@@ -134,20 +124,17 @@ class FmuInstance:
             self._step_rest = (ctypes.c_bool(True), *[ctypes.byref(r) for r in self._step_results])
         self._step_arguments = (self._handle, self._now, self._size, *self._step_rest)
 
-    def _bind(self, prefix: str, names: Mapping[str, str], group: str, parts: Mapping) -> list[tuple]:
-        """(function, arguments) of each call that moves something."""
-        return [
-            (getattr(self._library, prefix + names[kind]), (self._handle, *parts[group, kind].arguments))
-            for kind in ("real", "int")
-            if parts[group, kind].array.size
-        ]
+    def _calls(self, group: str) -> list[tuple]:
+        """(function, arguments) of each call that moves something between the FMU and its arrays."""
+        parts = [(kind, self._parts[group, kind]) for kind in ("real", "int")]
+        return [(self._functions[group, k], (self._handle, *part.arguments)) for k, part in parts if part.array.size]
 
     # --- calls ---
 
     def call(self, name: str, *arguments: object) -> None:
         """An FMI function by its name without the prefix; FmuCallError when it refuses."""
         if name.endswith("FMUState") or "FMUStateSize" in name:
-            name = self._state_call(name)
+            name = state_call(name, self.version)
         if not self.component:
             raise FmuCallError(f"{self.name}: the instance is closed")
         seen = len(self.log)
@@ -155,11 +142,6 @@ class FmuInstance:
         status = function(self._handle, *arguments)
         if status > OK_OR_WARNING:
             self._refused(name, seen)
-
-    def _state_call(self, name: str) -> str:
-        if self.version == 3:
-            return name
-        return name.replace("FMUState", "FMUstate").replace("Deserialize", "DeSerialize")
 
     def _refused(self, name: str, seen: int = 0) -> None:
         texts = [text for status, _, text in self.log[seen:] if status > OK_OR_WARNING] or [
@@ -235,6 +217,45 @@ class FmuInstance:
             if function(*arguments) > OK_OR_WARNING:
                 self._refused("get outputs")
 
+    def writes_from(self, real: np.ndarray, integer: np.ndarray) -> Callable[[int], None]:
+        """A function of k (not checked) that sets all inputs from row k of these (ticks, elements), without a copy."""
+        return self._row_function("input", real, integer, "set inputs")
+
+    def reads_into(self, real: np.ndarray, integer: np.ndarray) -> Callable[[int], None]:
+        """A function of k (not checked) that reads all outputs into row k of these; the output arrays stay."""
+        return self._row_function("output", real, integer, "get outputs")
+
+    def _row_function(self, group: str, real: np.ndarray, integer: np.ndarray, what: str) -> Callable[[int], None]:
+        calls = [
+            RowCall(self._functions[group, kind], self._handle, self._parts[group, kind], rows)
+            for kind, rows in (("real", real), ("int", integer))
+            if self._parts[group, kind].array.size
+        ]
+        bound = [(c.function, c.arguments, c.values, c.address, c.stride, c.rows) for c in calls]
+
+        def move(k: int) -> None:
+            for function, arguments, values, address, stride, _ in bound:
+                values.value = address + k * stride
+                if function(*arguments) > OK_OR_WARNING:
+                    self._refused(what)
+
+        return move
+
+    def stepper(self) -> Callable[[], None]:
+        """step() of one tick as a function that does nothing else: what a loop of many ticks calls."""
+        now, do_step, log = ctypes.c_double(), self._do_step, self.log
+        arguments = (self._handle, now, ctypes.c_double(1000 / 1e6), *self._step_rest)
+
+        def step() -> None:
+            tick = self.tick
+            now.value = self.start_time_s + (tick * 1000) / 1e6
+            seen = len(log)
+            if do_step(*arguments) > OK_OR_WARNING:
+                self._refused("DoStep", seen)
+            self.tick = tick + 1
+
+        return step
+
     def step(self, tick_count: int = 1) -> None:
         """Advance by whole ticks of 1 ms with the inputs held; neither writes nor reads the arrays."""
         self._now.value = self.start_time_s + (self.tick * 1000) / 1e6
@@ -269,49 +290,3 @@ class FmuInstance:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-    # --- states ---
-
-    def get_state(self) -> FmuState:
-        """Save everything; the state stays with this instance."""
-        pointer = ctypes.c_void_p()
-        self.call("GetFMUState", ctypes.byref(pointer))
-        return FmuState(self, pointer, self.tick)
-
-    def set_state(self, state: FmuState) -> None:
-        """Go back to a saved state; the output arrays are read, the input arrays stay as they are."""
-        if state.owner is not self or not state.pointer:
-            raise FmuCallError(
-                f"{self.name}: this state was released, or is another instance's; pass its bytes on instead"
-            )
-        self.call("SetFMUState", state.pointer)
-        self.initialised = True
-        self.tick = state.tick if state.tick is not None else self._tick_of_fmu()
-        self.read()
-
-    def serialize(self, state: FmuState | None = None) -> bytes:
-        """A state (default: the present one) as bytes, good for another instance or process."""
-        kept = state or self.get_state()
-        size = ctypes.c_size_t()
-        self.call("SerializedFMUStateSize", kept.pointer, ctypes.byref(size))
-        block = ctypes.create_string_buffer(size.value)
-        self.call("SerializeFMUState", kept.pointer, block, size)
-        if state is None:
-            kept.release()
-        return block.raw
-
-    def deserialize(self, block: bytes) -> FmuState:
-        """Bytes -> a state of this instance, for set_state()."""
-        pointer = ctypes.c_void_p()
-        self.call("DeserializeFMUState", block, ctypes.c_size_t(len(block)), ctypes.byref(pointer))
-        return FmuState(self, pointer, None)
-
-    def _tick_of_fmu(self) -> int:
-        """The FMU's own time as ticks since the start time."""
-        time_s = ctypes.c_double()
-        if self.version == 2:
-            self.call("GetRealStatus", ctypes.c_int(2), ctypes.byref(time_s))
-        else:
-            time_reference = (ctypes.c_uint32 * 1)(0)
-            self.call("GetFloat64", time_reference, ctypes.c_size_t(1), ctypes.byref(time_s), ctypes.c_size_t(1))
-        return round((time_s.value - self.start_time_s) * 1000)
