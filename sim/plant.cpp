@@ -1,8 +1,10 @@
 // The plant's C interface and its tick.
 #include "hoap2_plant/plant.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -10,9 +12,10 @@
 #include "drive/drive.h"
 #include "ode_runtime.h"
 #include "push/push.h"
-#include "robot/engine.h"
 #include "robot/kinematics.h"
 #include "sensors/sensors.h"
+#include "solver/articulated_solver.h"
+#include "solver/ode_solver.h"
 #include "terrain/contact.h"
 #include "truth/truth.h"
 
@@ -33,13 +36,16 @@ class Plant {
  private:
   int fail(const std::string &text);
   int build();
-  void apply_pushes(State *next);
+  void give_up_world();
+  void apply_pushes(LinkLoad load[HOAP2_LINKS], State *next) const;
   void solve(const hoap2_plant_inputs_t &inputs, State *next);
   bool correct_saturation(const double rate_rad_s[HOAP2_JOINTS], bool may_release);
   void gather_contacts(State *next) const;
 
   State state_ = {};
-  Engine engine_;
+  Mat3 axes_W_[HOAP2_LINKS];       // of state_
+  Mat3 next_axes_W_[HOAP2_LINKS];  // of the tick being made
+  std::unique_ptr<TickSolver> solver_;
   Ground ground_;
   ContactList contacts_;
   Drive drive_[HOAP2_JOINTS];
@@ -54,13 +60,22 @@ int Plant::fail(const std::string &text) {
 
 int Plant::build() {
   try {
-    engine_.build(state_.params);
+    if (state_.params.solver == HOAP2_SOLVER_ODE) {
+      solver_ = std::make_unique<OdeSolver>(state_.params);
+    } else {
+      solver_ = std::make_unique<ArticulatedSolver>(state_.params);
+    }
     ground_.build(state_.params);
   } catch (const OdeFailure &failure) {
-    engine_.abandon();
+    give_up_world();
     return fail(failure.what());
   }
   return 0;
+}
+
+void Plant::give_up_world() {
+  if (solver_ != nullptr) solver_->abandon();
+  solver_.reset();
 }
 
 int Plant::init(const hoap2_plant_params_t &params) {
@@ -74,9 +89,10 @@ int Plant::init(const hoap2_plant_params_t &params) {
   constexpr std::size_t kUsed = offsetof(hoap2_plant_params_t, push_link) + sizeof params.push_link;
   std::memcpy(&state_.params, &params, kUsed);
   place_robot(&state_);
+  all_link_axes_W(state_, axes_W_);
   for (int j = 0; j < HOAP2_JOINTS; ++j) {
-    const double rate_rad_s = joint_rate_rad_s(state_, j);
-    state_.drive[j] = {joint_angle_rad(state_, j), rate_rad_s, rate_rad_s, 0.0};
+    const double q_rad = joint_angle_rad(state_, j), rate_rad_s = joint_rate_rad_s(state_, axes_W_, j);
+    state_.drive[j] = {q_rad, rate_rad_s, q_rad, rate_rad_s, rate_rad_s, 0.0};
   }
   for (int k = 0; k < 2; ++k) {  // before the first contact: midway between the soles
     state_.cop_W_m[k] = 0.5 * (sole_point_W_m(state_, 0)[k] + sole_point_W_m(state_, 1)[k]);
@@ -96,22 +112,26 @@ int Plant::restore(const void *bytes) {
   const std::string fault = fault_of_params(saved.params) + fault_of_bodies(saved);
   if (!fault.empty()) return fail("the saved state is damaged: " + fault);
   const bool same_world =
-      engine_.built() && std::memcmp(&saved.params, &state_.params, sizeof saved.params) == 0;
+      solver_ != nullptr && std::memcmp(&saved.params, &state_.params, sizeof saved.params) == 0;
   state_ = saved;
+  all_link_axes_W(state_, axes_W_);
   error_[0] = '\0';
   return same_world ? 0 : build();
 }
 
-void Plant::apply_pushes(State *next) {
+void Plant::apply_pushes(LinkLoad load[HOAP2_LINKS], State *next) const {
   put(Vec3{}, next->push_force_W_N);
   for (int i = 0; i < kPushes; ++i) {
-    double force_W_N[3], point_now_W_m[3];
+    double force_W_N[3];
     push_force(state_.params, state_.tick, i, force_W_N);
-    if (force_W_N[0] == 0.0 && force_W_N[1] == 0.0 && force_W_N[2] == 0.0) continue;
+    const Vec3 force = vec(force_W_N);
+    if (dot(force, force) == 0.0) continue;
     const int link = state_.params.push_link[i];
-    put(point_W_m(state_, link, vec(state_.params.push_point_L_m[i])), point_now_W_m);
-    engine_.add_force(link, force_W_N, point_now_W_m);
-    for (int k = 0; k < 3; ++k) next->push_force_W_N[k] += force_W_N[k];
+    const Vec3 arm_W_m =
+        point_W_m(state_, link, vec(state_.params.push_point_L_m[i])) - vec(state_.body[link].com_pos_W_m);
+    load[link].force_W_N = load[link].force_W_N + force;
+    load[link].torque_com_W_Nm = load[link].torque_com_W_Nm + cross(arm_W_m, force);
+    put(vec(next->push_force_W_N) + force, next->push_force_W_N);
   }
 }
 
@@ -130,24 +150,23 @@ bool Plant::correct_saturation(const double rate_rad_s[HOAP2_JOINTS], bool may_r
 }
 
 void Plant::solve(const hoap2_plant_inputs_t &inputs, State *next) {
-  double axis_W[HOAP2_JOINTS][3], rate_rad_s[HOAP2_JOINTS];
-  for (int j = 0; j < HOAP2_JOINTS; ++j) {
-    drive_[j].begin(state_, inputs, j);
-    put(link_axes_W(state_, HOAP2_JOINT[j].child_link).column(HOAP2_JOINT[j].axis), axis_W[j]);
-  }
-  ground_.find_contacts(state_, &contacts_);
-  engine_.set_contacts(contacts_, state_.params);
+  LinkLoad load[HOAP2_LINKS];
+  MotorRow row[HOAP2_JOINTS];
+  double rate_rad_s[HOAP2_JOINTS];
+  for (int j = 0; j < HOAP2_JOINTS; ++j) drive_[j].begin(state_, inputs, j);
+  ground_.find_contacts(state_, axes_W_, &contacts_);
+  apply_pushes(load, next);
+  solver_->begin({&state_, axes_W_, load, &contacts_});
   for (int solves = 1; solves <= kMaxSolves; ++solves) {
-    engine_.write(state_);
-    apply_pushes(next);
-    for (int j = 0; j < HOAP2_JOINTS; ++j) engine_.set_motor(j, drive_[j].row());
-    engine_.step();
-    engine_.row_rates(axis_W, rate_rad_s);
+    for (int j = 0; j < HOAP2_JOINTS; ++j) row[j] = drive_[j].row();
+    solver_->solve(row, rate_rad_s);
     if (solves == kMaxSolves || !correct_saturation(rate_rad_s, solves == 1)) break;
   }
-  engine_.read(state_, next);
+  solver_->finish(next);
+  all_link_axes_W(*next, next_axes_W_);
   for (int j = 0; j < HOAP2_JOINTS; ++j) {
-    next->drive[j] = drive_[j].finish(joint_angle_rad(*next, j), rate_rad_s[j]);
+    next->drive[j] =
+        drive_[j].finish(joint_angle_rad(*next, j), joint_rate_rad_s(*next, next_axes_W_, j), rate_rad_s[j]);
   }
 }
 
@@ -163,7 +182,7 @@ void Plant::gather_contacts(State *next) const {
     }
     const int foot = link == kFootLink[0] ? 0 : 1;
     double force_W_N[3], moment_com_W_Nm[3];
-    engine_.contact_load(i, force_W_N, moment_com_W_Nm);
+    solver_->contact_load(i, force_W_N, moment_com_W_Nm);
     const Vec3 arm_W_m = vec(state_.body[link].com_pos_W_m) - sole_point_W_m(state_, foot);
     const Vec3 moment_W_Nm = vec(moment_com_W_Nm) + cross(arm_W_m, vec(force_W_N));
     FootWrench &wrench = next->foot[foot];
@@ -173,7 +192,7 @@ void Plant::gather_contacts(State *next) const {
 }
 
 int Plant::step(const hoap2_plant_inputs_t &inputs) {
-  if (!engine_.built()) return fail("step before init");
+  if (solver_ == nullptr) return fail("step before init");
   const std::string fault = fault_of_inputs(inputs);
   if (!fault.empty()) return fail(fault);
   use_ode_on_this_thread();
@@ -181,7 +200,7 @@ int Plant::step(const hoap2_plant_inputs_t &inputs) {
   try {
     solve(inputs, &next);
   } catch (const OdeFailure &failure) {
-    engine_.abandon();
+    give_up_world();
     build();
     return fail(failure.what());
   }
@@ -192,6 +211,7 @@ int Plant::step(const hoap2_plant_inputs_t &inputs) {
   sensors_measure(&next);
   ++next.tick;
   state_ = next;
+  std::copy(next_axes_W_, next_axes_W_ + HOAP2_LINKS, axes_W_);
   error_[0] = '\0';
   return 0;
 }

@@ -14,7 +14,7 @@ namespace hoap2_sim {
 
 constexpr double kTick_s = 1e-3;
 constexpr std::uint64_t kStateMagic = 0x32504c4e54504f48ULL;
-constexpr std::uint32_t kStateVersion = 1;
+constexpr std::uint32_t kStateVersion = 2;
 
 // A link's centre of mass; the axes are the link's.
 struct BodyState {
@@ -25,8 +25,11 @@ struct BodyState {
   double omega_before_W_rad_s[3];  // a tick earlier
 };
 
-// The rotor side of a joint. Equal to the link side unless the joint is compliant.
+// A joint: the link side as the bodies have it, and the rotor side, which is equal to it
+// unless the joint is compliant.
 struct DriveState {
+  double link_q_rad;
+  double link_qd_rad_s;
   double rotor_q_rad;
   double rotor_qd_rad_s;
   double rotor_qd_before_rad_s;  // a tick earlier

@@ -44,7 +44,7 @@ bool joint_is_compliant(const hoap2_plant_params_t &params, int joint) {
 void Drive::begin(const State &state, const hoap2_plant_inputs_t &in, int j) {
   const hoap2_joint_data_t &joint = HOAP2_JOINT[j];
   const hoap2_plant_params_t &params = state.params;
-  const double link_q_rad = joint_angle_rad(state, j), link_qd_rad_s = joint_rate_rad_s(state, j);
+  const double link_q_rad = state.drive[j].link_q_rad, link_qd_rad_s = state.drive[j].link_qd_rad_s;
   compliant_ = joint_is_compliant(params, j);
   rotor_q_rad_ = compliant_ ? state.drive[j].rotor_q_rad : link_q_rad;
   rotor_qd_rad_s_ = compliant_ ? state.drive[j].rotor_qd_rad_s : link_qd_rad_s;
@@ -55,18 +55,10 @@ void Drive::begin(const State &state, const hoap2_plant_inputs_t &in, int j) {
     q_measured_rad = quantised_rad(q_measured_rad);
   }
   switch (in.drive_mode[j]) {
-    case kDrivePosition:
-      unlimited_ = position_law(q_ref_rad - q_measured_rad, rotor_qd_rad_s_, in, j);
-      break;
-    case kDriveTorque:
-      unlimited_ = {in.tau_ff_Nm[j], 0.0};
-      break;
-    case kDriveDampedTorque:
-      unlimited_ = {in.tau_ff_Nm[j], in.kd_Nms_rad[j]};
-      break;
-    default:
-      unlimited_ = {0.0, 0.0};
-      break;
+    case kDrivePosition: unlimited_ = position_law(q_ref_rad - q_measured_rad, rotor_qd_rad_s_, in, j); break;
+    case kDriveTorque: unlimited_ = {in.tau_ff_Nm[j], 0.0}; break;
+    case kDriveDampedTorque: unlimited_ = {in.tau_ff_Nm[j], in.kd_Nms_rad[j]}; break;
+    default: unlimited_ = {0.0, 0.0}; break;
   }
   peak_Nm_ = joint.torque_peak_Nm;
   inertia_per_tick_ = joint.armature_kgm2 / kTick_s;
@@ -133,10 +125,12 @@ int Drive::wanted_saturation(double link_qd_next_rad_s) const {
   return tau_Nm > 0.0 ? 1 : -1;
 }
 
-DriveState Drive::finish(double link_q_next_rad, double link_qd_next_rad_s) const {
+DriveState Drive::finish(double link_q_next_rad, double link_qd_next_rad_s, double row_rate_rad_s) const {
   const DriveLaw drive = law();
-  const double rate_rad_s = rotor_rate_next_rad_s(drive, link_qd_next_rad_s);
+  const double rate_rad_s = rotor_rate_next_rad_s(drive, row_rate_rad_s);
   DriveState next;
+  next.link_q_rad = link_q_next_rad;
+  next.link_qd_rad_s = link_qd_next_rad_s;
   next.rotor_q_rad = compliant_ ? rotor_q_rad_ + kTick_s * rate_rad_s : link_q_next_rad;
   next.rotor_qd_rad_s = rate_rad_s;
   next.rotor_qd_before_rad_s = rotor_qd_rad_s_;

@@ -4,7 +4,7 @@
 #define HOAP2_SIM_DRIVE_DRIVE_H
 
 #include "plant_state.h"
-#include "robot/engine.h"
+#include "solver/solver.h"
 
 namespace hoap2_sim {
 
@@ -32,8 +32,9 @@ class Drive {
   // Saturation that the law asks for, given the link's rate after the tick.
   int wanted_saturation(double link_qd_next_rad_s) const;
 
-  // The joint's drive state after the tick.
-  DriveState finish(double link_q_next_rad, double link_qd_next_rad_s) const;
+  // The joint's drive state after the tick; row_rate: the rate that the motor row was solved with,
+  // along the axis of the tick's start.
+  DriveState finish(double link_q_next_rad, double link_qd_next_rad_s, double row_rate_rad_s) const;
 
  private:
   DriveLaw law() const;

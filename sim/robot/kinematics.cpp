@@ -98,6 +98,10 @@ void place_robot(State *state) {
   set_start_velocities(state);
 }
 
+void all_link_axes_W(const State &s, Mat3 axes_W[HOAP2_LINKS]) {
+  for (int link = 0; link < HOAP2_LINKS; ++link) axes_W[link] = link_axes_W(s, link);
+}
+
 Vec3 point_W_m(const State &s, int link, const Vec3 &point_L_m) {
   return vec(s.body[link].com_pos_W_m) + link_axes_W(s, link) * (point_L_m - link_com_L_m(s.params, link));
 }
@@ -119,10 +123,9 @@ double joint_angle_rad(const State &s, int joint) {
   return 2.0 * (relative.w >= 0.0 ? std::atan2(along, relative.w) : std::atan2(-along, -relative.w));
 }
 
-double joint_rate_rad_s(const State &s, int joint) {
+double joint_rate_rad_s(const State &s, const Mat3 axes_W[HOAP2_LINKS], int joint) {
   const hoap2_joint_data_t &data = HOAP2_JOINT[joint];
-  const Vec3 axis_W = link_axes_W(s, data.child_link).column(data.axis);
-  return dot(axis_W,
+  return dot(axes_W[data.child_link].column(data.axis),
              vec(s.body[data.child_link].omega_W_rad_s) - vec(s.body[data.parent_link].omega_W_rad_s));
 }
 

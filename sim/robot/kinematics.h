@@ -24,6 +24,7 @@ void link_poses_in_pelvis(const double q_rad[HOAP2_JOINTS], LinkPose pose[HOAP2_
 void place_robot(State *state);
 
 inline Mat3 link_axes_W(const State &s, int link) { return matrix(quat(s.body[link].quat_W)); }
+void all_link_axes_W(const State &s, Mat3 axes_W[HOAP2_LINKS]);
 // A point given in the link frame.
 Vec3 point_W_m(const State &s, int link, const Vec3 &point_L_m);
 Vec3 point_vel_W_m_s(const State &s, int link, const Vec3 &point_L_m);
@@ -31,7 +32,7 @@ Vec3 sole_point_W_m(const State &s, int foot);
 
 // Angle and rate of a joint at the link side.
 double joint_angle_rad(const State &s, int joint);
-double joint_rate_rad_s(const State &s, int joint);
+double joint_rate_rad_s(const State &s, const Mat3 axes_W[HOAP2_LINKS], int joint);
 
 void total_com(const State &s, Vec3 *com_W_m, Vec3 *com_rate_W_m_s);
 

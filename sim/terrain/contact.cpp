@@ -22,6 +22,10 @@ Box box_of(int link) {
   return {0.5 * (low + high), half_m, norm(half_m)};
 }
 
+Vec3 box_centre_W_m(const State &state, const Mat3 &axes_W, int link, const Box &box) {
+  return vec(state.body[link].com_pos_W_m) + axes_W * (box.centre_L_m - link_com_L_m(state.params, link));
+}
+
 void add(int link, const Vec3 &point_W_m, const Vec3 &normal_W, double depth_m, const Mat3 &link_axes,
          ContactList *contacts) {
   if (contacts->count >= kMaxContacts) return;
@@ -69,13 +73,12 @@ void Ground::build(const hoap2_plant_params_t &params) {
 }
 
 // Corners of the link's box below the floor plane.
-void Ground::touch_floor(const State &state, int link, ContactList *contacts) const {
-  const Floor floor(state.params);
+void Ground::touch_floor(const State &state, const Floor &floor, const Mat3 &axes, int link,
+                         ContactList *contacts) const {
   const Box box = box_of(link);
-  const Vec3 centre_W_m = point_W_m(state, link, box.centre_L_m);
+  const Vec3 centre_W_m = box_centre_W_m(state, axes, link, box);
   const double centre_height_m = floor.height_m(centre_W_m);
   if (centre_height_m > box.radius_m) return;
-  const Mat3 axes = link_axes_W(state, link);
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 arm_L_m = {(corner & 1) != 0 ? box.half_m.x : -box.half_m.x,
                           (corner & 2) != 0 ? box.half_m.y : -box.half_m.y,
@@ -86,10 +89,11 @@ void Ground::touch_floor(const State &state, int link, ContactList *contacts) co
   }
 }
 
-void Ground::touch_block(const State &state, int link, int block, ContactList *contacts) const {
+void Ground::touch_block(const State &state, const Mat3 &axes, int link, int block,
+                         ContactList *contacts) const {
   const hoap2_plant_params_t &params = state.params;
   const Box box = box_of(link);
-  const Vec3 centre_W_m = point_W_m(state, link, box.centre_L_m);
+  const Vec3 centre_W_m = box_centre_W_m(state, axes, link, box);
   const Vec3 away_W_m = centre_W_m - vec(params.block_centre_W_m[block]);
   const Vec3 away_B_m = turn_back(rotation(2, params.block_yaw_W_rad[block]), away_W_m);
   for (int i = 0; i < 3; ++i) {
@@ -101,7 +105,6 @@ void Ground::touch_block(const State &state, int link, int block, ContactList *c
   dGeomSetQuaternion(link_box_[link], quat_W);
   dContactGeom found[kBoxContacts];
   const int count = dCollide(link_box_[link], block_[block], kBoxContacts, found, sizeof(dContactGeom));
-  const Mat3 axes = link_axes_W(state, link);
   for (int i = 0; i < count; ++i) {
     const Vec3 point = {found[i].pos[0], found[i].pos[1], found[i].pos[2]};
     const Vec3 normal = {found[i].normal[0], found[i].normal[1], found[i].normal[2]};
@@ -109,11 +112,13 @@ void Ground::touch_block(const State &state, int link, int block, ContactList *c
   }
 }
 
-void Ground::find_contacts(const State &state, ContactList *contacts) const {
+void Ground::find_contacts(const State &state, const Mat3 axes_W[HOAP2_LINKS], ContactList *contacts) const {
   contacts->count = 0;
+  const Floor floor(state.params);
   for (int link = 0; link < HOAP2_LINKS; ++link) {
-    touch_floor(state, link, contacts);
-    for (int block = 0; block < block_count_; ++block) touch_block(state, link, block, contacts);
+    touch_floor(state, floor, axes_W[link], link, contacts);
+    for (int block = 0; block < block_count_; ++block)
+      touch_block(state, axes_W[link], link, block, contacts);
   }
 }
 

@@ -5,7 +5,9 @@
 
 #include <ode/ode.h>
 
+#include "geometry.h"
 #include "plant_state.h"
+#include "terrain/floor.h"
 
 namespace hoap2_sim {
 
@@ -34,12 +36,14 @@ class Ground {
   Ground &operator=(const Ground &) = delete;
 
   void build(const hoap2_plant_params_t &params);
-  void find_contacts(const State &state, ContactList *contacts) const;
+  // axes_W: of all links, from the state's quaternions.
+  void find_contacts(const State &state, const Mat3 axes_W[HOAP2_LINKS], ContactList *contacts) const;
 
  private:
   void clear();
-  void touch_floor(const State &state, int link, ContactList *contacts) const;
-  void touch_block(const State &state, int link, int block, ContactList *contacts) const;
+  void touch_floor(const State &state, const Floor &floor, const Mat3 &axes_W, int link,
+                   ContactList *contacts) const;
+  void touch_block(const State &state, const Mat3 &axes_W, int link, int block, ContactList *contacts) const;
 
   int block_count_ = 0;
   dGeomID block_[16] = {};

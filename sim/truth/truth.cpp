@@ -69,8 +69,8 @@ void fill_outputs(const State &s, hoap2_plant_outputs_t *out) {
   fill_base(s, out);
   fill_feet(s, out);
   for (int j = 0; j < HOAP2_JOINTS; ++j) {
-    out->true_q_rad[j] = joint_angle_rad(s, j);
-    out->true_qd_rad_s[j] = joint_rate_rad_s(s, j);
+    out->true_q_rad[j] = s.drive[j].link_q_rad;
+    out->true_qd_rad_s[j] = s.drive[j].link_qd_rad_s;
     out->true_tau_Nm[j] = s.drive[j].tau_Nm;
   }
   std::memcpy(out->true_cop_W_m, s.cop_W_m, sizeof out->true_cop_W_m);

@@ -224,7 +224,7 @@ TEST(Drive, CompliantRowObeysSpringAndRotor) {
     drive.begin(s, rig.inputs, j);
     const MotorRow row = drive.row();
     const double torque_Nm = row.stiffness_Nms_rad * (row.target_rad_s - link_qd_next);
-    const DriveState next = drive.finish(link_q + kTick_s * link_qd_next, link_qd_next);
+    const DriveState next = drive.finish(link_q + kTick_s * link_qd_next, link_qd_next, link_qd_next);
     const double spring_Nm = 2000.0 * (next.rotor_q_rad - link_q - kTick_s * link_qd_next) +
                              20.0 * (next.rotor_qd_rad_s - link_qd_next);
     EXPECT_NEAR(spring_Nm, torque_Nm, 1e-10);
