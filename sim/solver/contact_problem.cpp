@@ -76,17 +76,16 @@ double ContactProblem::force_error_N() const {
 }
 
 // The laws linearised at the present velocities, put into the tree, and its answer.
-void ContactProblem::sweep(BodyTree *tree, bool from_guess) {
-  static_cast<void>(from_guess);
+void ContactProblem::sweep(BodyTree *tree) {
   ++effort_.sweeps;
   tree->clear_points();
   for (int i = 0; i < count_; ++i) {
     Row &row = row_[i];
     row.arm_W_m = row.point_W_m - tree->reference_W_m(row.link);
-    const Matrix3 k = row.law.stiffness_Ns_m(row.velocity_m_s);
-    // kept for the answer: force = next_force - k velocity
-    row.next_force_N = row.law.force_N(row.velocity_m_s) + k * row.velocity_m_s;
-    const Matrix3 k_W = kTick_s * (row.axes_W * k * row.axes_W.transpose());
+    // the tangent of the law: force = next_force - stiffness velocity
+    row.stiffness_Ns_m = row.law.stiffness_Ns_m(row.velocity_m_s);
+    row.next_force_N = row.law.force_N(row.velocity_m_s) + row.stiffness_Ns_m * row.velocity_m_s;
+    const Matrix3 k_W = kTick_s * (row.axes_W * row.stiffness_Ns_m * row.axes_W.transpose());
     tree->add_point(row.link, row.arm_W_m, k_W, kTick_s * (row.axes_W * row.next_force_N));
   }
   tree->solve_touched();
@@ -94,7 +93,7 @@ void ContactProblem::sweep(BodyTree *tree, bool from_guess) {
     Row &row = row_[i];
     const SpatialVector &motion = tree->motion(row.link);
     row.next_velocity_m_s = row.axes_W.transpose() * (motion.linear + motion.angular.cross(row.arm_W_m));
-    row.next_force_N -= row.law.stiffness_Ns_m(row.velocity_m_s) * row.next_velocity_m_s;
+    row.next_force_N -= row.stiffness_Ns_m * row.next_velocity_m_s;
   }
 }
 
@@ -153,7 +152,7 @@ void ContactProblem::accept(double step) {
 bool ContactProblem::converge(BodyTree *tree) {
   while (force_error_N() > kForceTolerance_N) {
     if (effort_.sweeps >= kMaxSweeps) return false;
-    sweep(tree, false);
+    sweep(tree);
     accept(line_search());
   }
   return true;
@@ -198,7 +197,7 @@ void ContactProblem::solve(BodyTree *tree) {
     return;
   }
   guess_bounds();
-  sweep(tree, true);
+  sweep(tree);
   accept(1.0);
   if (pyramid_) {
     solve_ode_pyramid(tree);

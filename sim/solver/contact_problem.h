@@ -35,9 +35,10 @@ class ContactProblem {
     Matrix3 axes_W;  // columns: normal, along, across
     ContactLaw law;
     double friction;
-    Vector3 guess_m_s;     // velocity before the tick
-    Vector3 velocity_m_s;  // of the present iterate
-    Vector3 force_N;       // that made it, in the tree's linear answer
+    Vector3 guess_m_s;       // velocity before the tick
+    Vector3 velocity_m_s;    // of the present iterate
+    Vector3 force_N;         // that made it, in the tree's linear answer
+    Matrix3 stiffness_Ns_m;  // of the law's tangent there
     Vector3 next_velocity_m_s, next_force_N;
   };
 
@@ -45,7 +46,7 @@ class ContactProblem {
   void set_bounds(double friction_scale);
   double bound_error_N() const;
   double force_error_N() const;
-  void sweep(BodyTree *tree, bool from_guess);
+  void sweep(BodyTree *tree);
   double slope_at(double step) const;
   double line_search() const;
   void accept(double step);
