@@ -29,6 +29,7 @@ enum { HOAP2_PHASE_STAND = 0, HOAP2_PHASE_DOUBLE_SUPPORT = 1, HOAP2_PHASE_SINGLE
 enum { HOAP2_CP_CONTROLLER_PLAN = 0, HOAP2_CP_CONTROLLER_CPS = 1, HOAP2_CP_CONTROLLER_CPT = 2 };
 enum { HOAP2_COP_PROFILE_CONSTANT = 0, HOAP2_COP_PROFILE_RAMP = 1 };
 enum { HOAP2_SENSOR_PRESET_IDEAL = 0, HOAP2_SENSOR_PRESET_HOAP2 = 1 };
+enum { HOAP2_SWITCH_OFF = 0, HOAP2_SWITCH_ON = 1 };
 
 typedef struct {
   double q_enc_rad[25]; /* joint angles as the encoders count them [rad] */
@@ -60,6 +61,8 @@ typedef struct {
   double cp_est_W_m[2]; /* capture point as the robot senses it, (7.1) [m] */
   double cp_eos_W_m[2]; /* desired capture point at the end of the step [m] */
   double tpcc_shift_W_m[2]; /* shift of the CoM reference by the torso position compliance control [m] */
+  double com_deviation_W_m[2]; /* CoM as the robot senses it minus its reference, along the ground [m] */
+  double landing_shift_W_m[2]; /* shift of the landing position of the present step, (7.14) [m] */
   double foot_ref_W_m[2][3]; /* reference of the sole point under each ankle [m] */
   double foot_ref_yaw_W_rad[2]; /* reference yaw of each foot [rad] */
   double footprint_W_m_rad[3]; /* landing target of the present step: x (m), y (m), yaw (rad) [1] */
@@ -106,6 +109,11 @@ typedef struct {
   double tpcc_error_limit_m; /* the CoP error is clipped here [m] */
   double tpcc_shift_limit_m; /* the shift is clipped here [m] */
   double tpcc_filter_s; /* low-pass of the CoP error [s] */
+  double lpc_threshold_m[2]; /* deviations of the CoM below this, along and across the walk, do not shift the landing [m] */
+  double lpc_gain[2]; /* K_L of (7.14), along and across the walk [1] */
+  double lpc_forget[2]; /* forgetting factor lambda of (7.14), along and across the walk [1] */
+  double lpc_limit_m; /* the landing shift is clipped here [m] */
+  double lpc_min_spacing_m; /* least distance of the ankles across the walk that a landing shift may leave [m] */
   double attitude_tau_s; /* time constant of the attitude fusion of gyro and accelerometer [s] */
   double com_rate_filter_s; /* low-pass of the sensed CoM rate [s] */
   double contact_on_N; /* a foot is in contact above this force [N] */
@@ -121,6 +129,8 @@ typedef struct {
   int32_t first_swing_foot; /* foot of the first step: 0 right, 1 left */
   int32_t cp_controller; /* plan (7.9), CPS (7.11) or CPT (7.12) */
   int32_t cop_profile; /* CoP within a step: constant, or a ramp over the first part */
+  int32_t landing_control; /* landing position control (7.14) */
+  int32_t lpc_moves_cp; /* the capture point at the end of the step moves with the shifted landing */
   int32_t stale_limit_ticks; /* watchdog: bad or stale sensor frames that are bridged by holding */
 } hoap2_params_t;
 /* bytes of its members, without the padding behind the last one */
@@ -166,6 +176,12 @@ static inline void hoap2_params_defaults(hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_error_limit_m)[i_] = 0.03;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_shift_limit_m)[i_] = 0.03;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_filter_s)[i_] = 0.05;
+  { static const double v_[2] = {0.002, 0.006};
+    for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->lpc_threshold_m)[i_] = v_[i_]; }
+  for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->lpc_gain)[i_] = 0.45;
+  for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->lpc_forget)[i_] = 0.7;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->lpc_limit_m)[i_] = 0.04;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->lpc_min_spacing_m)[i_] = 0.068;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->attitude_tau_s)[i_] = 3.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->com_rate_filter_s)[i_] = 0.02;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->contact_on_N)[i_] = 5.0;
@@ -184,6 +200,8 @@ static inline void hoap2_params_defaults(hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->first_swing_foot)[i_] = 0;
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->cp_controller)[i_] = 0;
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->cop_profile)[i_] = 0;
+  for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->landing_control)[i_] = 0;
+  for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->lpc_moves_cp)[i_] = 0;
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->stale_limit_ticks)[i_] = 5;
 }
 
@@ -217,6 +235,11 @@ static inline int hoap2_params_out_of_range(const hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->tpcc_error_limit_m)[i_]; if (!(v_ >= 0.0 && v_ <= 0.1)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->tpcc_shift_limit_m)[i_]; if (!(v_ >= 0.0 && v_ <= 0.1)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->tpcc_filter_s)[i_]; if (!(v_ >= 0.0 && v_ <= 0.2)) ++bad_; }
+  for (int i_ = 0; i_ < 2; ++i_) { const double v_ = ((const double *)(const void *)&p->lpc_threshold_m)[i_]; if (!(v_ >= 0.0 && v_ <= 0.1)) ++bad_; }
+  for (int i_ = 0; i_ < 2; ++i_) { const double v_ = ((const double *)(const void *)&p->lpc_gain)[i_]; if (!(v_ >= 0.0 && v_ <= 2.0)) ++bad_; }
+  for (int i_ = 0; i_ < 2; ++i_) { const double v_ = ((const double *)(const void *)&p->lpc_forget)[i_]; if (!(v_ >= 0.0 && v_ <= 0.99)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->lpc_limit_m)[i_]; if (!(v_ >= 0.0 && v_ <= 0.1)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->lpc_min_spacing_m)[i_]; if (!(v_ >= 0.066 && v_ <= 0.2)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->attitude_tau_s)[i_]; if (!(v_ >= 0.2 && v_ <= 60.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->com_rate_filter_s)[i_]; if (!(v_ >= 0.001 && v_ <= 0.2)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->contact_on_N)[i_]; if (!(v_ >= 0.5 && v_ <= 50.0)) ++bad_; }
@@ -232,6 +255,8 @@ static inline int hoap2_params_out_of_range(const hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->first_swing_foot)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->cp_controller)[i_]; if (!(v_ >= 0 && v_ <= 2)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->cop_profile)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->landing_control)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->lpc_moves_cp)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->stale_limit_ticks)[i_]; if (!(v_ >= 1 && v_ <= 100)) ++bad_; }
   return bad_;
 }

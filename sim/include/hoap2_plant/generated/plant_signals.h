@@ -8,6 +8,9 @@
 
 enum { HOAP2_SOLVER_ARTICULATED = 0, HOAP2_SOLVER_ODE = 1 };
 enum { HOAP2_FRICTION_LAW_OF_SOLVER = 0, HOAP2_FRICTION_LAW_CONE = 1, HOAP2_FRICTION_LAW_PYRAMID = 2 };
+enum { HOAP2_GROUND_RIGID = 0, HOAP2_GROUND_SOIL = 1 };
+enum { HOAP2_SOIL_LAW_BEKKER = 0, HOAP2_SOIL_LAW_RFT = 1 };
+enum { HOAP2_SOIL_LINKS_SOLES = 0, HOAP2_SOIL_LINKS_ALL = 1 };
 
 typedef struct {
   double q_ref_rad[25]; /* joint angle reference [rad] */
@@ -35,6 +38,7 @@ typedef struct {
   double true_com_W_m[3]; /* CoM, truth [m] */
   double true_com_rate_W_m_s[3]; /* CoM rate, truth [m/s] */
   double true_cop_W_m[2]; /* net CoP of the sole contacts, truth; held in flight [m] */
+  double true_sinkage_m[2]; /* mean depth of each sole below the untouched ground, truth (0 on the rigid floor) [m] */
   double true_chest_rpy_rad[3]; /* roll, pitch and yaw of the chest (yaw-pitch-roll order), truth [rad] */
   double true_foot_pos_W_m[2][3]; /* sole point under each ankle, truth [m] */
   double true_foot_yaw_W_rad[2]; /* yaw of each foot, truth [rad] */
@@ -60,6 +64,24 @@ typedef struct {
   double cell_gain[8]; /* gain of each foot cell (preset hoap2) [1] */
   double chest_com_shift_L_m[3]; /* shift of the chest's CoM against the model [m] */
   double floor_tilt_rad[2]; /* floor tilt about x and about y through the start point [rad] */
+  double soil_size_m[3]; /* pool: length, width, depth [m] */
+  double soil_centre_m[2]; /* middle of the pool from the start point, ahead and to the left [m] */
+  double soil_cell_m; /* cell of the height field [m] */
+  double soil_kc_N_m_n1; /* k_c of (k_c/b + k_phi) z^n, N/m^(n+1), b the smaller side of the sole [1] */
+  double soil_kphi_N_m_n2; /* k_phi of (k_c/b + k_phi) z^n, N/m^(n+2) [1] */
+  double soil_n; /* exponent n of the sinkage [1] */
+  double soil_cohesion_Pa; /* cohesion c [Pa] */
+  double soil_friction_rad; /* angle of internal friction phi [rad] */
+  double soil_shear_m; /* shear displacement K of Janosi-Hanamoto [m] */
+  double soil_unload_Pa_m; /* k_0 of the unloading stiffness k_0 + A_u z_u [Pa/m] */
+  double soil_unload_Pa_m2; /* A_u of the unloading stiffness k_0 + A_u z_u [Pa/m2] */
+  double soil_damping_Pas_m; /* damping of the pressure [Pa.s/m] */
+  double soil_repose_rad; /* angle of repose [rad] */
+  double soil_edge_loss; /* share of the bearing pressure that is lost at the edge of a sole [1] */
+  double soil_edge_m; /* width of the strip at the edge over which that loss fades [m] */
+  double soil_rft_zeta; /* scale of the generic stresses of resistive force theory [1] */
+  double soil_roughness_m; /* initial roughness of the surface, rms [m] */
+  double soil_roughness_length_m; /* correlation length of the roughness [m] */
   double friction_mu; /* Coulomb friction of the floor [1] */
   double contact_stiffness_N_m; /* spring of a contact point (a corner of a sole) with the floor [N/m] */
   double contact_damping_Ns_m; /* damper of a contact point with the floor [N.s/m] */
@@ -78,6 +100,11 @@ typedef struct {
   int32_t sensor_preset; /* ideal, or hoap2: quantised, band-limited, noisy, one frame late */
   int32_t solver; /* what solves a tick's equations: the articulated solver, or ODE's dWorldStep */
   int32_t friction_law; /* Coulomb friction as a cone, or as ODE's pyramid; of_solver: cone for articulated, pyramid for ode (which has no cone) */
+  int32_t ground; /* what the robot stands on: the rigid floor with its blocks, or a pool of soil in the floor */
+  int32_t soil_law; /* bekker: pressure-sinkage and Janosi-Hanamoto shear; rft: three-dimensional resistive force theory */
+  int32_t soil_links; /* which links the soil carries */
+  int32_t soil_patches[2]; /* patches of a sole, along and across */
+  int32_t soil_seed; /* seed of the roughness */
   int32_t block_count; /* number of terrain blocks (steps, edges) */
   int32_t push_link[8]; /* link of each push, in the order of hoap2.json */
 } hoap2_plant_params_t;
@@ -109,6 +136,26 @@ static inline void hoap2_plant_params_defaults(hoap2_plant_params_t *p) {
   for (int i_ = 0; i_ < 8; ++i_) ((double *)(void *)&(p)->cell_gain)[i_] = 1.0;
   for (int i_ = 0; i_ < 3; ++i_) ((double *)(void *)&(p)->chest_com_shift_L_m)[i_] = 0.0;
   for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->floor_tilt_rad)[i_] = 0.0;
+  { static const double v_[3] = {0.85, 0.56, 0.15};
+    for (int i_ = 0; i_ < 3; ++i_) ((double *)(void *)&(p)->soil_size_m)[i_] = v_[i_]; }
+  { static const double v_[2] = {0.21, 0.0};
+    for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->soil_centre_m)[i_] = v_[i_]; }
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_cell_m)[i_] = 0.005;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_kc_N_m_n1)[i_] = 0.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_kphi_N_m_n2)[i_] = 6000000.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_n)[i_] = 1.1;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_cohesion_Pa)[i_] = 200.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_friction_rad)[i_] = 0.5235987755982988;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_shear_m)[i_] = 0.008;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_unload_Pa_m)[i_] = 100000000.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_unload_Pa_m2)[i_] = 0.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_damping_Pas_m)[i_] = 40000.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_repose_rad)[i_] = 0.5585053606381855;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_edge_loss)[i_] = 0.3;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_edge_m)[i_] = 0.01;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_rft_zeta)[i_] = 1.4;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_roughness_m)[i_] = 0.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_roughness_length_m)[i_] = 0.02;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->friction_mu)[i_] = 0.7;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->contact_stiffness_N_m)[i_] = 500000.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->contact_damping_Ns_m)[i_] = 1500.0;
@@ -127,6 +174,12 @@ static inline void hoap2_plant_params_defaults(hoap2_plant_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->sensor_preset)[i_] = 1;
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->solver)[i_] = 0;
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->friction_law)[i_] = 0;
+  for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->ground)[i_] = 0;
+  for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->soil_law)[i_] = 0;
+  for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->soil_links)[i_] = 1;
+  { static const int32_t v_[2] = {10, 6};
+    for (int i_ = 0; i_ < 2; ++i_) ((int32_t *)(void *)&(p)->soil_patches)[i_] = v_[i_]; }
+  for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->soil_seed)[i_] = 0;
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->block_count)[i_] = 0;
   for (int i_ = 0; i_ < 8; ++i_) ((int32_t *)(void *)&(p)->push_link)[i_] = 0;
 }
@@ -144,6 +197,24 @@ static inline int hoap2_plant_params_out_of_range(const hoap2_plant_params_t *p)
   for (int i_ = 0; i_ < 8; ++i_) { const double v_ = ((const double *)(const void *)&p->cell_gain)[i_]; if (!(v_ >= 0.0 && v_ <= 2.0)) ++bad_; }
   for (int i_ = 0; i_ < 3; ++i_) { const double v_ = ((const double *)(const void *)&p->chest_com_shift_L_m)[i_]; if (!(v_ >= -0.02 && v_ <= 0.02)) ++bad_; }
   for (int i_ = 0; i_ < 2; ++i_) { const double v_ = ((const double *)(const void *)&p->floor_tilt_rad)[i_]; if (!(v_ >= -0.4 && v_ <= 0.4)) ++bad_; }
+  for (int i_ = 0; i_ < 3; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_size_m)[i_]; if (!(v_ >= 0.05 && v_ <= 20.0)) ++bad_; }
+  for (int i_ = 0; i_ < 2; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_centre_m)[i_]; if (!(v_ >= -20.0 && v_ <= 20.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_cell_m)[i_]; if (!(v_ >= 0.001 && v_ <= 0.05)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_kc_N_m_n1)[i_]; if (!(v_ >= 0.0 && v_ <= 1000000000.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_kphi_N_m_n2)[i_]; if (!(v_ >= 1000.0 && v_ <= 1000000000000.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_n)[i_]; if (!(v_ >= 0.3 && v_ <= 2.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_cohesion_Pa)[i_]; if (!(v_ >= 0.0 && v_ <= 100000.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_friction_rad)[i_]; if (!(v_ >= 0.0 && v_ <= 1.2)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_shear_m)[i_]; if (!(v_ >= 0.0001 && v_ <= 0.2)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_unload_Pa_m)[i_]; if (!(v_ >= 100000.0 && v_ <= 1000000000000.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_unload_Pa_m2)[i_]; if (!(v_ >= 0.0 && v_ <= 100000000000000.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_damping_Pas_m)[i_]; if (!(v_ >= 0.0 && v_ <= 100000000.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_repose_rad)[i_]; if (!(v_ >= 0.05 && v_ <= 1.4)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_edge_loss)[i_]; if (!(v_ >= 0.0 && v_ <= 1.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_edge_m)[i_]; if (!(v_ >= 0.0 && v_ <= 0.05)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_rft_zeta)[i_]; if (!(v_ >= 0.01 && v_ <= 100.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_roughness_m)[i_]; if (!(v_ >= 0.0 && v_ <= 0.02)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_roughness_length_m)[i_]; if (!(v_ >= 0.002 && v_ <= 1.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->friction_mu)[i_]; if (!(v_ >= 0.0 && v_ <= 10.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->contact_stiffness_N_m)[i_]; if (!(v_ >= 1000.0 && v_ <= 100000000.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->contact_damping_Ns_m)[i_]; if (!(v_ >= 0.0 && v_ <= 1000000.0)) ++bad_; }
@@ -162,6 +233,11 @@ static inline int hoap2_plant_params_out_of_range(const hoap2_plant_params_t *p)
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->sensor_preset)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->solver)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->friction_law)[i_]; if (!(v_ >= 0 && v_ <= 2)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->ground)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->soil_law)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->soil_links)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
+  for (int i_ = 0; i_ < 2; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->soil_patches)[i_]; if (!(v_ >= 1 && v_ <= 64)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->soil_seed)[i_]; if (!(v_ >= 0 && v_ <= 2147483647)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->block_count)[i_]; if (!(v_ >= 0 && v_ <= 16)) ++bad_; }
   for (int i_ = 0; i_ < 8; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->push_link)[i_]; if (!(v_ >= 0 && v_ <= 25)) ++bad_; }
   return bad_;
