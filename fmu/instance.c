@@ -23,9 +23,8 @@ hoap2_fmu_instance_t *hoap2_fmu_create(const char *name, hoap2_fmu_emit_t emit, 
   self->categories = HOAP2_FMU_LOG_ALL;
   self->name = malloc(strlen(name) + 1);
   self->model = hoap2_product_create();
-  self->undo = calloc(1, hoap2_product_state_size());
   self->trial_params = calloc(1, HOAP2_FMU_PRODUCT.group_size[HOAP2_FMU_PARAMETER]);
-  bool complete = self->name && self->model && self->undo && self->trial_params;
+  bool complete = self->name && self->model && self->trial_params;
   for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) {
     self->group[g] = calloc(1, HOAP2_FMU_PRODUCT.group_size[g]);
     complete = complete && self->group[g];
@@ -182,16 +181,29 @@ static int64_t ticks_of_step(hoap2_fmu_instance_t *self, double now_s, double st
   return (int64_t)ticks;
 }
 
+/* Keeps the model's state for the case that a later tick fails. */
+static bool keep_undo(hoap2_fmu_instance_t *self) {
+  const size_t size = hoap2_product_state_size(self->model);
+  if (size > self->undo_size) {
+    void *larger = realloc(self->undo, size);
+    if (!larger) return false;
+    self->undo = larger;
+  }
+  self->undo_size = size;
+  hoap2_product_get_state(self->model, self->undo);
+  return true;
+}
+
 hoap2_fmu_status_t hoap2_fmu_do_step(hoap2_fmu_instance_t *self, double now_s, double step_s) {
   const int64_t ticks = ticks_of_step(self, now_s, step_s);
   if (ticks == 0) return HOAP2_FMU_ERROR;
   /* one tick keeps its own state when it fails; several are undone together */
-  if (ticks > 1) hoap2_product_get_state(self->model, self->undo);
+  if (ticks > 1 && !keep_undo(self)) return hoap2_fmu_error(self, "out of memory");
   for (int64_t i = 0; i < ticks; ++i) {
     if (hoap2_product_step(self->model, self->group[HOAP2_FMU_INPUT]) == 0) continue;
     hoap2_fmu_error(self, "tick %lld failed: %s", (long long)(self->tick + i),
                     hoap2_product_error(self->model));
-    if (i > 0 && hoap2_product_set_state(self->model, self->undo) != 0) {
+    if (i > 0 && hoap2_product_set_state(self->model, self->undo, self->undo_size) != 0) {
       hoap2_fmu_error(self, "the state before the step could not be restored: %s",
                       hoap2_product_error(self->model));
     }

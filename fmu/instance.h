@@ -51,7 +51,8 @@ typedef struct hoap2_fmu_instance {
   void *model;
   void *group[HOAP2_FMU_GROUPS]; /* inputs, outputs, parameters */
   void *trial_params;            /* parameters on trial */
-  void *undo;                    /* model state before a step of several ticks */
+  void *undo;                    /* model state before a step of several ticks, NULL until needed */
+  size_t undo_size;
 } hoap2_fmu_instance_t;
 
 /* NULL when memory is short. */

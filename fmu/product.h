@@ -48,9 +48,10 @@ int hoap2_product_tune(void *model, const void *params);
 /* One tick with inputs held. Non-zero: the model keeps its last state. */
 int hoap2_product_step(void *model, const void *inputs);
 void hoap2_product_get_outputs(const void *model, void *outputs);
-size_t hoap2_product_state_size(void);
+/* Size of the present state; a set one must say its own. */
+size_t hoap2_product_state_size(const void *model);
 void hoap2_product_get_state(const void *model, void *state);
-int hoap2_product_set_state(void *model, const void *state);
+int hoap2_product_set_state(void *model, const void *state, size_t size);
 const char *hoap2_product_error(const void *model);
 
 #endif

@@ -9,7 +9,7 @@
 
 #include "instance.h"
 
-enum { SNAPSHOT_VERSION = 1, BYTE_ORDER_MARK = 0x01020304 };
+enum { SNAPSHOT_VERSION = 1, BYTE_ORDER_MARK = 0x01020304, MAX_BODY = 1 << 30 };
 static const char MAGIC[8] = {'H', 'O', 'A', 'P', '2', 'F', 'M', 'U'};
 
 typedef struct {
@@ -45,17 +45,20 @@ static uint64_t checksum_of(const unsigned char *bytes, size_t size) {
   return hash;
 }
 
-static size_t snapshot_size(void) {
-  size_t size = sizeof(snapshot_t) + hoap2_product_state_size();
+/* Of a snapshot without its model state. */
+static size_t frame_size(void) {
+  size_t size = sizeof(snapshot_t);
   for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) size += HOAP2_FMU_PRODUCT.group_size[g];
   return size;
 }
 
-static uint64_t body_checksum(const void *snapshot) {
-  return checksum_of((const unsigned char *)snapshot + sizeof(header_t), snapshot_size() - sizeof(header_t));
+static size_t snapshot_size(const header_t *header) { return sizeof(header_t) + (size_t)header->body_size; }
+
+static uint64_t body_checksum(const void *snapshot, size_t size) {
+  return checksum_of((const unsigned char *)snapshot + sizeof(header_t), size - sizeof(header_t));
 }
 
-static header_t make_header(void) {
+static header_t make_header(size_t size) {
   header_t header;
   memset(&header, 0, sizeof header);
   memcpy(header.magic, MAGIC, sizeof MAGIC);
@@ -64,13 +67,13 @@ static header_t make_header(void) {
   strncpy(header.product, HOAP2_FMU_PRODUCT.name, sizeof header.product - 1);
   strncpy(header.token, HOAP2_FMU_PRODUCT.token, sizeof header.token - 1);
   header.schema = HOAP2_FMU_PRODUCT.schema;
-  header.body_size = snapshot_size() - sizeof(header_t);
+  header.body_size = size - sizeof(header_t);
   return header;
 }
 
 /* NULL, or what is wrong with a header. */
 static const char *header_fault(const header_t *found) {
-  const header_t expected = make_header();
+  const header_t expected = make_header(frame_size());
   if (memcmp(found->magic, expected.magic, sizeof expected.magic) != 0) return "it is not a HOAP-2 state";
   if (found->version != expected.version || found->reserved != 0) return "its format has another version";
   if (found->byte_order != expected.byte_order) return "its byte order is another machine's";
@@ -79,7 +82,7 @@ static const char *header_fault(const header_t *found) {
   if (found->schema != expected.schema || memcmp(found->token, expected.token, sizeof expected.token) != 0) {
     return "it was made with another table of signals";
   }
-  if (found->body_size != expected.body_size) return "its size is wrong";
+  if (found->body_size < expected.body_size || found->body_size > MAX_BODY) return "its size is wrong";
   return NULL;
 }
 
@@ -87,10 +90,12 @@ hoap2_fmu_status_t hoap2_fmu_get_state(hoap2_fmu_instance_t *self, void **state)
   if (!state) return hoap2_fmu_error(self, "get state: NULL pointer");
   if (*state && header_fault(*state))
     return hoap2_fmu_error(self, "get state: the given state is not one of this FMU");
-  if (!*state) *state = calloc(1, snapshot_size());
+  const size_t size = frame_size() + hoap2_product_state_size(self->model);
+  if (*state && snapshot_size(*state) != size) hoap2_fmu_free_state(self, state);
+  if (!*state) *state = calloc(1, size);
   if (!*state) return hoap2_fmu_error(self, "get state: out of memory");
   snapshot_t *snapshot = *state;
-  snapshot->header = make_header();
+  snapshot->header = make_header(size);
   snapshot->fields.mode = (int32_t)self->mode;
   snapshot->fields.model_ready = self->model_ready;
   snapshot->fields.tick = self->tick;
@@ -104,7 +109,7 @@ hoap2_fmu_status_t hoap2_fmu_get_state(hoap2_fmu_instance_t *self, void **state)
   if (self->model_ready) {
     hoap2_product_get_state(self->model, rest);
   } else {
-    memset(rest, 0, hoap2_product_state_size());
+    memset(rest, 0, size - frame_size());
   }
   return HOAP2_FMU_OK;
 }
@@ -117,7 +122,8 @@ hoap2_fmu_status_t hoap2_fmu_set_state(hoap2_fmu_instance_t *self, const void *s
   const char *groups = (const char *)(snapshot + 1);
   const char *model = groups;
   for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) model += HOAP2_FMU_PRODUCT.group_size[g];
-  if (snapshot->fields.model_ready && hoap2_product_set_state(self->model, model) != 0) {
+  const size_t model_size = snapshot_size(&snapshot->header) - frame_size();
+  if (snapshot->fields.model_ready && hoap2_product_set_state(self->model, model, model_size) != 0) {
     return hoap2_fmu_error(self, "set state: %s", hoap2_product_error(self->model));
   }
   for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) {
@@ -146,7 +152,9 @@ hoap2_fmu_status_t hoap2_fmu_free_state(hoap2_fmu_instance_t *self, void **state
 
 hoap2_fmu_status_t hoap2_fmu_serialized_size(hoap2_fmu_instance_t *self, const void *state, size_t *size) {
   if (!state || !size) return hoap2_fmu_error(self, "serialized size: NULL pointer");
-  *size = snapshot_size();
+  const char *fault = header_fault(state);
+  if (fault) return hoap2_fmu_error(self, "serialized size: %s", fault);
+  *size = snapshot_size(state);
   return HOAP2_FMU_OK;
 }
 
@@ -155,12 +163,11 @@ hoap2_fmu_status_t hoap2_fmu_serialize(hoap2_fmu_instance_t *self, const void *s
   if (!state || !bytes) return hoap2_fmu_error(self, "serialize: NULL pointer");
   const char *fault = header_fault(state);
   if (fault) return hoap2_fmu_error(self, "serialize: %s", fault);
-  if (size < snapshot_size()) {
-    return hoap2_fmu_error(self, "serialize: %zu bytes given, %zu needed", size, snapshot_size());
-  }
-  header_t header = make_header();
-  header.checksum = body_checksum(state);
-  memcpy(bytes, state, snapshot_size());
+  const size_t needed = snapshot_size(state);
+  if (size < needed) return hoap2_fmu_error(self, "serialize: %zu bytes given, %zu needed", size, needed);
+  header_t header = make_header(needed);
+  header.checksum = body_checksum(state, needed);
+  memcpy(bytes, state, needed);
   memcpy(bytes, &header, sizeof header);
   return HOAP2_FMU_OK;
 }
@@ -184,18 +191,20 @@ hoap2_fmu_status_t hoap2_fmu_deserialize(hoap2_fmu_instance_t *self, const void 
   memcpy(&header, bytes, sizeof header);
   const char *fault = header_fault(&header);
   if (fault) return hoap2_fmu_error(self, "deserialize: %s", fault);
-  if (size != snapshot_size()) {
-    return hoap2_fmu_error(self, "deserialize: %zu bytes given, a state has %zu", size, snapshot_size());
+  if (size != snapshot_size(&header)) {
+    return hoap2_fmu_error(self, "deserialize: %zu bytes given, this state has %zu", size,
+                           snapshot_size(&header));
   }
-  if (header.checksum != body_checksum(bytes)) {
+  if (header.checksum != body_checksum(bytes, size)) {
     return hoap2_fmu_error(self, "deserialize: the bytes are damaged (checksum)");
   }
   fields_t fields;
   memcpy(&fields, (const char *)bytes + sizeof header, sizeof fields);
   if (!fields_plausible(&fields)) return hoap2_fmu_error(self, "deserialize: impossible values");
-  void *copy = *state && !header_fault(*state) ? *state : malloc(snapshot_size());
+  const bool reuse = *state && !header_fault(*state) && snapshot_size(*state) == size;
+  void *copy = reuse ? *state : malloc(size);
   if (!copy) return hoap2_fmu_error(self, "deserialize: out of memory");
-  memcpy(copy, bytes, snapshot_size());
+  memcpy(copy, bytes, size);
   *state = copy;
   return HOAP2_FMU_OK;
 }

@@ -29,7 +29,9 @@ class Plant {
  public:
   int init(const hoap2_plant_params_t &params);
   int step(const hoap2_plant_inputs_t &inputs);
-  int restore(const void *state);
+  std::size_t state_size() const { return sizeof(State); }
+  void save(void *bytes) const;
+  int restore(const void *bytes, std::size_t size);
   const State &state() const { return state_; }
   const char *error() const { return error_; }
 
@@ -102,7 +104,10 @@ int Plant::init(const hoap2_plant_params_t &params) {
   return build();
 }
 
-int Plant::restore(const void *bytes) {
+void Plant::save(void *bytes) const { std::memcpy(bytes, &state_, sizeof state_); }
+
+int Plant::restore(const void *bytes, std::size_t size) {
+  if (size < sizeof(State)) return fail("the block is too short for a plant state");
   State saved;
   std::memcpy(&saved, bytes, sizeof saved);
   if (saved.magic != kStateMagic || saved.version != kStateVersion || saved.size != sizeof(State)) {
@@ -249,15 +254,13 @@ HOAP2_EXPORT void hoap2_plant_get_outputs(const hoap2_plant_t *plant, hoap2_plan
   hoap2_sim::fill_outputs(plant->plant.state(), outputs);
 }
 
-HOAP2_EXPORT size_t hoap2_plant_state_size(void) { return sizeof(hoap2_sim::State); }
+HOAP2_EXPORT size_t hoap2_plant_state_size(const hoap2_plant_t *plant) { return plant->plant.state_size(); }
 
-HOAP2_EXPORT void hoap2_plant_get_state(const hoap2_plant_t *plant, void *state) {
-  std::memcpy(state, &plant->plant.state(), sizeof(hoap2_sim::State));
-}
+HOAP2_EXPORT void hoap2_plant_get_state(const hoap2_plant_t *plant, void *state) { plant->plant.save(state); }
 
-HOAP2_EXPORT int hoap2_plant_set_state(hoap2_plant_t *plant, const void *state) {
+HOAP2_EXPORT int hoap2_plant_set_state(hoap2_plant_t *plant, const void *state, size_t size) {
   hoap2_sim::use_ode_on_this_thread();
-  return plant->plant.restore(state);
+  return plant->plant.restore(state, size);
 }
 
 HOAP2_EXPORT const char *hoap2_plant_error(const hoap2_plant_t *plant) { return plant->plant.error(); }

@@ -52,7 +52,8 @@ int hoap2_product_init(void *model, const void *params) {
   if (faults == 0) return 0;
   for (int i = 0; i < HOAP2_FAULT_NAMES; ++i) {
     if (!(faults & HOAP2_FAULT_NAME[i].bit)) continue;
-    snprintf(self->error, sizeof self->error, "%s (fault %s)", HOAP2_FAULT_NAME[i].text, HOAP2_FAULT_NAME[i].name);
+    snprintf(self->error, sizeof self->error, "%s (fault %s)", HOAP2_FAULT_NAME[i].text,
+             HOAP2_FAULT_NAME[i].name);
     break;
   }
   return 1;
@@ -76,13 +77,20 @@ void hoap2_product_get_outputs(const void *model, void *outputs) {
   hoap2_get_outputs(((const model_t *)model)->state, outputs);
 }
 
-size_t hoap2_product_state_size(void) { return hoap2_state_size(); }
+size_t hoap2_product_state_size(const void *model) {
+  (void)model;
+  return hoap2_state_size();
+}
 
 void hoap2_product_get_state(const void *model, void *state) {
   memcpy(state, ((const model_t *)model)->state, hoap2_state_size());
 }
 
-int hoap2_product_set_state(void *model, const void *state) {
+int hoap2_product_set_state(void *model, const void *state, size_t size) {
+  if (size != hoap2_state_size()) {
+    snprintf(((model_t *)model)->error, sizeof((model_t *)model)->error, "%zu bytes are not a state", size);
+    return 1;
+  }
   memcpy(((model_t *)model)->state, state, hoap2_state_size());
   return 0;
 }

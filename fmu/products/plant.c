@@ -42,10 +42,12 @@ int hoap2_product_step(void *model, const void *inputs) { return hoap2_plant_ste
 
 void hoap2_product_get_outputs(const void *model, void *outputs) { hoap2_plant_get_outputs(model, outputs); }
 
-size_t hoap2_product_state_size(void) { return hoap2_plant_state_size(); }
+size_t hoap2_product_state_size(const void *model) { return hoap2_plant_state_size(model); }
 
 void hoap2_product_get_state(const void *model, void *state) { hoap2_plant_get_state(model, state); }
 
-int hoap2_product_set_state(void *model, const void *state) { return hoap2_plant_set_state(model, state); }
+int hoap2_product_set_state(void *model, const void *state, size_t size) {
+  return hoap2_plant_set_state(model, state, size);
+}
 
 const char *hoap2_product_error(const void *model) { return hoap2_plant_error(model); }

@@ -116,9 +116,9 @@ def _load(path: str) -> ctypes.CDLL:
         "hoap2_get_outputs": (None, [pointer, pointer]),
         "hoap2_plant_create": (pointer, []), "hoap2_plant_destroy": (None, [pointer]),
         "hoap2_plant_init": (ctypes.c_int, [pointer, pointer]), "hoap2_plant_step": (ctypes.c_int, [pointer, pointer]),
-        "hoap2_plant_get_outputs": (None, [pointer, pointer]), "hoap2_plant_state_size": (size_t, []),
+        "hoap2_plant_get_outputs": (None, [pointer, pointer]), "hoap2_plant_state_size": (size_t, [pointer]),
         "hoap2_plant_get_state": (None, [pointer, pointer]),
-        "hoap2_plant_set_state": (ctypes.c_int, [pointer, pointer]),
+        "hoap2_plant_set_state": (ctypes.c_int, [pointer, pointer, size_t]),
         "hoap2_plant_error": (ctypes.c_char_p, [pointer]),
     }
     for name, (result, arguments) in signatures.items():
@@ -247,15 +247,13 @@ class Plant(_Product):
 
     def save(self) -> bytes:
         """The whole state; `restore` continues from it bit for bit."""
-        state = ctypes.create_string_buffer(self._c.hoap2_plant_state_size())
+        state = ctypes.create_string_buffer(self._c.hoap2_plant_state_size(self._handle))
         self._c.hoap2_plant_get_state(self._handle, state)
         return state.raw
 
     def restore(self, state: bytes) -> None:
         """Go back to a saved state; the outputs are those of that moment."""
-        if len(state) != self._c.hoap2_plant_state_size():
-            raise UserError(f"not a state of this plant: {len(state)} bytes")
-        self._check(self._c.hoap2_plant_set_state(self._handle, state))
+        self._check(self._c.hoap2_plant_set_state(self._handle, state, len(state)))
         self._get_outputs()
 
     @property

@@ -46,7 +46,7 @@ class Rig {
     hoap2_plant_get_state(plant_, &s);
     return s;
   }
-  int restore(const State &s) { return hoap2_plant_set_state(plant_, &s); }
+  int restore(const State &s) { return hoap2_plant_set_state(plant_, &s, sizeof s); }
   hoap2_plant_t *plant() { return plant_; }
 
   void posture(std::initializer_list<std::pair<int, double>> joints_deg) {

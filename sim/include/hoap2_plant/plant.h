@@ -30,11 +30,13 @@ int hoap2_plant_step(hoap2_plant_t *plant, const hoap2_plant_inputs_t *inputs);
 /* Outputs of the present state (valid from hoap2_plant_init on). */
 void hoap2_plant_get_outputs(const hoap2_plant_t *plant, hoap2_plant_outputs_t *outputs);
 
-/* The whole state as one block of bytes; restoring it continues bit for bit. */
-size_t hoap2_plant_state_size(void);
+/* The whole state as one block of bytes; restoring it continues bit for bit. The size
+ * depends on the parameters (the soil's height field), and is fixed from init on. */
+size_t hoap2_plant_state_size(const hoap2_plant_t *plant);
 void hoap2_plant_get_state(const hoap2_plant_t *plant, void *state);
-/* Returns 0, or non-zero when the block is not a state of this version. */
-int hoap2_plant_set_state(hoap2_plant_t *plant, const void *state);
+/* Returns 0, or non-zero when the block is not a whole state of this version. It may be
+ * the state of another instance, with other parameters. */
+int hoap2_plant_set_state(hoap2_plant_t *plant, const void *state, size_t size);
 
 /* Last error text of this instance, "" if none. */
 const char *hoap2_plant_error(const hoap2_plant_t *plant);
