@@ -9,8 +9,8 @@ namespace {
 
 // Forces of the law and of the answer agree to this: 1e-10 of the robot's weight.
 constexpr double kForceTolerance_N = 1e-8;
-constexpr int kMaxSweeps = 60;
-constexpr int kMaxBoundUpdates = 60;
+constexpr int kMaxSweeps = 200;
+constexpr int kMaxBoundUpdates = 100;
 constexpr int kLineSearchSteps = 60;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
@@ -158,26 +158,37 @@ bool ContactProblem::converge(BodyTree *tree) {
   return true;
 }
 
+// A bound that friction does not reach, neither as it is nor as it should be, may be off.
+bool ContactProblem::binds(const Row &row) {
+  const Vector3 force_N = row.law.force_N(row.velocity_m_s);
+  return std::hypot(force_N[1], force_N[2]) >= std::min(row.friction * force_N[0], row.law.bound_N);
+}
+
 double ContactProblem::bound_error_N() const {
   double worst_N = 0.0;
   for (int i = 0; i < count_; ++i) {
     const Row &row = row_[i];
     const Vector3 force_N = row.law.force_N(row.velocity_m_s);
     const double bound_N = row.friction * force_N[0];
-    // a bound that does not bind, before or after, may be off
-    const double friction_N = std::hypot(force_N[1], force_N[2]);
-    if (friction_N < std::min(bound_N, row.law.bound_N)) continue;
-    worst_N = std::max(worst_N, std::fabs(bound_N - row.law.bound_N));
+    if (binds(row)) worst_N = std::max(worst_N, std::fabs(bound_N - row.law.bound_N));
   }
   return worst_N;
 }
 
 // Coulomb's cone: friction bounds that are mu times the normal forces of the answer.
 void ContactProblem::solve_cone(BodyTree *tree) {
-  for (effort_.bound_updates = 0; effort_.bound_updates < kMaxBoundUpdates; ++effort_.bound_updates) {
-    set_bounds(1.0);
-    if (!converge(tree)) return;
-    if (bound_error_N() <= kForceTolerance_N) return;
+  double bound_N[kMaxContacts], image_N[kMaxContacts];
+  set_bounds(1.0);
+  bounds_.start(count_);
+  while (converge(tree) && bound_error_N() > kForceTolerance_N) {
+    if (++effort_.bound_updates > kMaxBoundUpdates) return;
+    for (int i = 0; i < count_; ++i) {
+      const Row &row = row_[i];
+      image_N[i] = row.friction * row.law.force_N(row.velocity_m_s)[0];
+      bound_N[i] = binds(row) ? row.law.bound_N : image_N[i];
+    }
+    bounds_.next(image_N, bound_N);
+    for (int i = 0; i < count_; ++i) row_[i].law.bound_N = bound_N[i];
   }
 }
 

@@ -3,6 +3,7 @@
 #define HOAP2_SIM_SOLVER_CONTACT_PROBLEM_H
 
 #include "solver/body_tree.h"
+#include "solver/bound_iteration.h"
 #include "solver/contact_law.h"
 #include "solver/solver.h"
 
@@ -44,6 +45,7 @@ class ContactProblem {
 
   void guess_bounds();
   void set_bounds(double friction_scale);
+  static bool binds(const Row &row);
   double bound_error_N() const;
   double force_error_N() const;
   void sweep(BodyTree *tree);
@@ -58,6 +60,7 @@ class ContactProblem {
   bool pyramid_ = false;
   bool touched_[HOAP2_LINKS] = {};
   ContactEffort effort_;
+  BoundIteration bounds_;
   Row row_[kMaxContacts];
 };
 
