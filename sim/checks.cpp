@@ -127,6 +127,41 @@ std::string fault_of_inputs(const hoap2_plant_inputs_t &in) {
   return "";
 }
 
+// Drives, sensors, wrenches: finite, and not beyond what any run reaches.
+std::string fault_of_memory(const State &state) {
+  constexpr double kLimit = 1e9;
+  const auto sane = [](const double *first, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(std::fabs(first[i]) <= kLimit)) return false;
+    }
+    return true;
+  };
+  for (int j = 0; j < HOAP2_JOINTS; ++j) {
+    const DriveState &drive = state.drive[j];
+    const double values[] = {drive.link_q_rad,     drive.link_qd_rad_s,         drive.rotor_q_rad,
+                             drive.rotor_qd_rad_s, drive.rotor_qd_before_rad_s, drive.tau_Nm};
+    if (!sane(values, 6)) return std::string("drive of ") + HOAP2_JOINT_NAME[j];
+  }
+  const SensorState &sensors = state.sensors;
+  for (const SensorFrame *frame : {&sensors.now, &sensors.shown}) {
+    if (!sane(frame->q_enc_rad, HOAP2_JOINTS) || !sane(frame->gyro_S_rad_s, 3) ||
+        !sane(frame->accel_S_m_s2, 3) || !sane(frame->cell_force_N, 8)) {
+      return "sensor frame";
+    }
+  }
+  if (!sane(sensors.gyro_lp_S_rad_s, 3) || !sane(sensors.accel_lp_S_m_s2, 3) ||
+      !sane(sensors.imu_vel_W_m_s, 3)) {
+    return "sensor filters";
+  }
+  for (const FootWrench &foot : state.foot) {
+    if (!sane(foot.force_W_N, 3) || !sane(foot.moment_W_Nm, 3)) return "foot wrench";
+  }
+  for (const BodyState &body : state.body) {
+    if (!sane(body.omega_before_W_rad_s, 3)) return "body rates";
+  }
+  return sane(state.cop_W_m, 2) && sane(state.push_force_W_N, 3) && state.tick >= 0 ? "" : "outputs or tick";
+}
+
 std::string fault_of_bodies(const State &state) {
   for (int link = 0; link < HOAP2_LINKS; ++link) {
     const BodyState &body = state.body[link];

@@ -114,7 +114,7 @@ int Plant::restore(const void *bytes, std::size_t size) {
     return fail("the block is not a plant state of this version");
   }
   // The block may come from a file: nothing of it is believed that could break the engine.
-  const std::string fault = fault_of_params(saved.params) + fault_of_bodies(saved);
+  const std::string fault = fault_of_params(saved.params) + fault_of_bodies(saved) + fault_of_memory(saved);
   if (!fault.empty()) return fail("the saved state is damaged: " + fault);
   const bool same_world =
       solver_ != nullptr && std::memcmp(&saved.params, &state_.params, sizeof saved.params) == 0;

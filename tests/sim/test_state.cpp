@@ -113,6 +113,12 @@ TEST(StateBlock, ForeignOrDamagedBlocksAreRefused) {
   bad = good;
   bad.body[3].quat_W[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(0, rig.restore(bad));
+  for (double *value : {&bad.drive[4].link_q_rad, &bad.drive[9].tau_Nm, &bad.sensors.shown.cell_force_N[2],
+                        &bad.sensors.gyro_lp_S_rad_s[1], &bad.foot[1].moment_W_Nm[0], &bad.cop_W_m[1]}) {
+    bad = good;
+    *value = std::numeric_limits<double>::infinity();
+    EXPECT_NE(0, rig.restore(bad));
+  }
   bad = good;
   bad.params.block_count = 1000;
   EXPECT_NE(0, rig.restore(bad));
