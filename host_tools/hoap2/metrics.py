@@ -6,11 +6,12 @@ import math
 
 import numpy as np
 
-from hoap2 import parameters, walk_plan
+from hoap2 import parameters, walk_metrics, walk_plan
 from hoap2.scenario import Scenario
 from hoap2.signal_log import SignalLog
 
 FALL_TILT_RAD = math.radians(45.0)
+UPRIGHT_RAD = FALL_TILT_RAD / 3
 AT_LIMIT = 0.999
 END_WINDOW_S = 0.5
 
@@ -28,13 +29,28 @@ def fall_tick(log: SignalLog) -> int | None:
     return int(ticks[0]) if ticks.size else None
 
 
+def chest_up_W(rpy_rad: np.ndarray) -> np.ndarray:
+    """Horizontal part of the chest's vertical axis, world frame, (ticks, 2): where the chest leans."""
+    roll, pitch, yaw = rpy_rad.T
+    ahead, left = np.sin(pitch) * np.cos(roll), -np.sin(roll)
+    return np.column_stack([np.cos(yaw) * ahead - np.sin(yaw) * left, np.sin(yaw) * ahead + np.cos(yaw) * left])
+
+
 def fall_direction(log: SignalLog, tick: int) -> str:
-    """Where the chest leans at the fall; when it still stands upright there, where it leans at the end."""
+    """Where the chest leans at the fall (still upright there: where it leans most after it), as the robot saw it.
+
+    The heading is the chest's yaw while it last stood upright: yaw means little in a robot that lies.
+    """
     rpy = log.block("p.true_chest_rpy_rad")
-    lean = rpy[tick] if max(abs(rpy[tick][:2])) > FALL_TILT_RAD / 3 else rpy[-1]
-    if abs(lean[0]) > abs(lean[1]):
-        return "right" if lean[0] > 0 else "left"
-    return "forward" if lean[1] > 0 else "backward"
+    tilt = chest_tilt_rad(rpy[:, 0], rpy[:, 1])
+    upright = np.flatnonzero(tilt[: tick + 1] < UPRIGHT_RAD)
+    heading = rpy[upright[-1], 2] if upright.size else rpy[0, 2]
+    seen = tick if tilt[tick] > UPRIGHT_RAD else tick + int(np.argmax(tilt[tick:]))
+    x, y = chest_up_W(rpy[seen : seen + 1])[0]
+    ahead, left = math.cos(heading) * x + math.sin(heading) * y, math.cos(heading) * y - math.sin(heading) * x
+    if abs(left) > abs(ahead):
+        return "left" if left > 0 else "right"
+    return "forward" if ahead > 0 else "backward"
 
 
 def first_judged_tick(log: SignalLog) -> int:
@@ -67,6 +83,18 @@ def _spread(values: np.ndarray | None, scale: float = 1.0) -> dict[str, float | 
         return {"max": None, "rms": None}
     sizes = np.abs(values) if values.ndim == 1 else np.linalg.norm(values, axis=1)
     return {"max": float(sizes.max()) * scale, "rms": float(np.sqrt(np.mean(sizes**2))) * scale}
+
+
+def _signed(values: np.ndarray, scale: float) -> dict[str, float | None]:
+    """{min, max} with their signs."""
+    if values.size == 0 or not np.isfinite(values).all():
+        return {"min": None, "max": None}
+    return {"min": float(values.min()) * scale, "max": float(values.max()) * scale}
+
+
+def _rows(log: SignalLog, name: str, rows: slice) -> np.ndarray | None:
+    block = log.block(name)
+    return None if block is None else block[rows]
 
 
 def _difference(log: SignalLog, a: str, b: str, columns: int, rows: slice) -> np.ndarray | None:
@@ -179,13 +207,15 @@ def compute(log: SignalLog, scenario: Scenario) -> dict:
     result = {
         "fell": fell,
         "fall_time_s": float(log.t_s[tick]) if fell else None,
-        "fall_direction": fall_direction(log, tick) if fell else None,
+        "fall_direction": (direction := fall_direction(log, tick) if fell else None),
+        "fell_backward": direction == "backward",
         "steps_planned": scenario.steps_planned,
         **_steps(log, tick),
         **_faults(log),
         "judged_from_s": float(log.t_s[start]),
         "roll_deg": _spread(rpy[judged, 0], degrees),
         "pitch_deg": _spread(rpy[judged, 1], degrees),
+        "pitch_signed_deg": _signed(rpy[judged, 1], degrees),
     }
     for axis, name in enumerate(("roll", "pitch")):
         error = None
@@ -195,9 +225,16 @@ def compute(log: SignalLog, scenario: Scenario) -> dict:
     peak = np.array([joint["torque_peak_Nm"] for joint in parameters.table().robot["joints"]])
     at_limit = np.abs(log.block("p.true_tau_Nm")[: tick if fell else None]) >= AT_LIMIT * peak
     force = log.block("p.true_foot_force_W_N")
-    return result | {
+    last = tick if fell else log.count - 1
+    result |= {
         **_position(log, scenario),
         **_standing(log, fell, scenario.options["stand_speed_m_s"]),
+    }
+    return result | {
+        "survived": walk_metrics.survived(result, scenario),
+        "sinkage_mid_stance_m": walk_metrics.sinkage_mid_stance_m(log, last),
+        "landing_shift_m": _spread(walk_metrics.landing_shifts_m(log, last)),
+        "com_deviation_m": _spread(_rows(log, "c.com_deviation_W_m", standing)),
         **_tracking(log, scenario, standing),
         "torque_limit_max_s": longest_run(at_limit) * parameters.table().tick_us / 1e6,
         "foot_force_max_N": float(max(force[:, 2].max(), force[:, 5].max())),

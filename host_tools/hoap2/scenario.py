@@ -8,7 +8,7 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from hoap2 import bounds, metric_names, parameters
+from hoap2 import bounds, metric_names, parameters, soil_presets
 from hoap2.errors import UserError
 from hoap2.generate.tables import PRODUCTS, ROOT
 
@@ -18,7 +18,7 @@ RUN_KEYS = {"stop_after_fall_s": (0.0, 60.0), "settle_s": (0.0, 60.0), "stand_sp
 RUN_DEFAULTS = {"stop_after_fall_s": 1.0, "settle_s": 2.0, "stand_speed_m_s": 0.02}
 PUSH_KEYS = {"link", "force_W_N", "point_L_m", "start_s", "duration_s", "ramp_s"}
 BLOCK_KEYS = {"centre_W_m", "size_m", "yaw_W_rad"}
-TABLES = {"scenario", "controller", "plant", "push", "block", "bounds", "run", "record"}
+TABLES = {"scenario", "controller", "plant", "soil", "push", "block", "bounds", "run", "record"}
 DURATION_RANGE_S = (0.01, 600.0)
 # Both products must agree on these; given for one, they hold for the other.
 MIRRORED = (("start_pos_W_m", "start_pos_W_m"), ("start_yaw_W_rad", "start_yaw_W_rad"),
@@ -108,7 +108,7 @@ def _resolve(raw: dict, path: Path, overrides: list[str], sensors: str | None, d
         raw.setdefault("plant", {})["solver"] = head["solver"]
     _expand(raw, "push", PUSH_KEYS, "push", _push)
     _expand(raw, "block", BLOCK_KEYS, "block", _block)
-    values, explicit = _parameters(raw)
+    values, explicit = _parameters(raw, soil_presets.resolve(raw, forced))
     options = RUN_DEFAULTS | {k: _number(f"run.{k}", v, *RUN_KEYS[k]) for k, v in raw.get("run", {}).items()}
     scenario = Scenario(
         name=_name(head.get("name", path.stem)), title=head["title"], section=head.get("section", ""),
@@ -262,8 +262,10 @@ def _block(entry: dict, where: str) -> dict:
     }
 
 
-def _parameters(raw: dict) -> tuple[parameters.Values, set[str]]:
+def _parameters(raw: dict, preset: dict[str, object]) -> tuple[parameters.Values, set[str]]:
     values, explicit = parameters.defaults(), set()
+    for name, value in preset.items():
+        values["plant"][name] = parameters.check("plant", name, value)
     for product in PRODUCTS:
         for name, value in raw.get(product, {}).items():
             values[product][name] = parameters.check(product, name, value)

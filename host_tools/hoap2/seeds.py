@@ -14,17 +14,19 @@ CELL_GAIN = 0.05
 FLOOR_TILT_RAD = math.radians(0.5)
 FRICTION_RANGE = (0.5, 1.0)
 CHEST_COM_M = 0.003
+SOIL_ROUGHNESS_M = 0.0005  # rms
+TAKEN = ("seed", "friction_mu", "soil_seed", "soil_roughness_m")  # unless the scenario sets them
 MOST_SEEDS = 10000
 
 
-def draw(seed: int) -> dict[str, tuple[float, ...]]:
-    """The plant's disturbances of one seed, always drawn in this order."""
+def draw(seed: int, soil: bool = False) -> dict[str, tuple[float, ...]]:
+    """The plant's disturbances of one seed, always drawn in this order; those of the soil only where there is some."""
     rng = random.Random(seed)
 
     def spread(half_width: float, count: int, centre: float = 0.0) -> tuple[float, ...]:
         return tuple(centre + rng.uniform(-half_width, half_width) for _ in range(count))
 
-    return {
+    drawn = {
         # Only random() is promised to stay the same in every Python.
         "seed": (float(1 + int(rng.random() * (2**31 - 2))),),
         "gyro_bias_S_rad_s": spread(GYRO_BIAS_RAD_S, 3),
@@ -33,14 +35,18 @@ def draw(seed: int) -> dict[str, tuple[float, ...]]:
         "friction_mu": (rng.uniform(*FRICTION_RANGE),),
         "chest_com_shift_L_m": spread(CHEST_COM_M, 3),
     }
+    if soil:
+        drawn["soil_seed"] = (float(1 + int(rng.random() * (2**31 - 2))),)
+        drawn["soil_roughness_m"] = (SOIL_ROUGHNESS_M,)
+    return drawn
 
 
 def apply(scenario: Scenario, seed: int) -> None:
     """Put a seed's draws into the scenario; 0 is the nominal run.
 
     Biases, tilts and shifts are added to the scenario's own value and gains multiply it;
-    friction and the seed of the noise are taken unless the scenario sets them. What the
-    command line sets (Scenario.forced) stays as it is.
+    friction, the roughness of soil and the seeds of noise and roughness are taken unless the
+    scenario sets them. What the command line sets (Scenario.forced) stays as it is.
     """
     if seed == 0:
         return
@@ -49,10 +55,11 @@ def apply(scenario: Scenario, seed: int) -> None:
                         "leave --seed away")  # fmt: skip
     plant = scenario.values["plant"]
     scenario.seed = seed
-    for name, drawn in draw(seed).items():
+    soil = plant["ground"][0] == parameters.table().enums["ground"].index("soil")
+    for name, drawn in draw(seed, soil).items():
         if f"plant.{name}" in scenario.forced:
             continue
-        if name in ("seed", "friction_mu"):
+        if name in TAKEN:
             if f"plant.{name}" in scenario.explicit:
                 continue
             value = drawn
