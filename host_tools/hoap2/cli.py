@@ -15,7 +15,7 @@ COMMANDS = {
     "list": "the scenarios, with what each one shows",
     "run": "run a scenario: summary, signals, report and video in a run folder",
     "frame": "a PNG of any moment of a run",
-    "bench": "what a tick, a plant step and an FMU exchange cost on this machine",
+    "bench": "what a tick costs in a whole run (run), and beside MuJoCo (plant)",
     "test": "build and run every test (--quick: below five minutes)",
     "generate": "rewrite the generated sources from hoap2.json and signals.toml",
     "fmu": "build or check the four FMUs",

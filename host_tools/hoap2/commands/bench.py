@@ -1,73 +1,86 @@
-"""`bench`: what the parts of a run cost on this machine."""
+"""`bench`: what things cost on this machine."""
 
 from __future__ import annotations
 
+import contextlib
 import json as json_module
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
-ROWS = (
-    ("controller_us", "controller tick, walking", 6.0),
-    ("plant_us", "plant step", None),
-    ("fmu_exchange_us", "FMU exchange, both (set, step call, get)", 20.0),
-    ("log_us", "log", 3.0),
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    help="What things cost on this machine. The figures are for reading: nothing is judged, the exit code is 0.",
 )
+Repeat = Annotated[int, typer.Option(min=1, max=100, help="Repetitions; shown is their median.")]
+Json = Annotated[bool, typer.Option("--json", help="Machine-readable, with every repetition, on standard output.")]
 
 
-def command(
-    repeat: Annotated[int, typer.Option(min=1, max=100, help="Repetitions; the table shows their median.")] = 3,
-    seconds: Annotated[float, typer.Option(min=3.0, max=60.0, help="Simulated time of each measured walk.")] = 6.0,
-    fmi: Annotated[int, typer.Option(min=2, max=3, help="FMI version of the measured FMUs.")] = 3,
-    json: Annotated[bool, typer.Option("--json", help="Every repetition, machine-readable.")] = False,
-) -> int:
-    """Time the controller tick, the plant step, the FMU exchange, the log, and a whole run.
-
-    The figures are for reading: nothing is judged, the exit code is 0.
-    """
+@contextlib.contextmanager
+def _status() -> Iterator[Callable[[str], None]]:
+    """Tell what is under way: a moving line on a terminal, else a line each on standard error."""
     from rich.console import Console
 
-    from hoap2 import bench
+    console = Console(stderr=True, highlight=False)
+    if not console.is_terminal:
+        yield lambda text: console.print(f"bench: {text}")
+        return
+    with console.status("") as status:
+        yield lambda text: status.update(text)
 
-    status = Console(stderr=True, highlight=False)
-    runs = []
-    for number in range(repeat):
-        if status.is_terminal:
-            with status.status(f"measuring, {number + 1} of {repeat}"):
-                runs.append(bench.once(seconds, fmi))
-        else:
-            runs.append(bench.once(seconds, fmi))
-    document = {"machine": bench.machine(), "fmi": fmi, "runs": runs}
+
+@app.command()
+def plant(
+    seconds: Annotated[float, typer.Option(min=2.0, max=17.0, help="Simulated time of the walk.")] = 8.0,
+    repeat: Repeat = 3,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE.png", help="The picture; else out/bench/plant-<time>.png.")
+    ] = None,
+    json: Json = False,
+) -> int:
+    """A step of the plant beside the same robot in dWorldStep and in MuJoCo.
+
+    All do the recorded drive commands of floor-walk (start-up, standing, stepping): on the floor, and once more in the
+    air without gravity. They take turns of 50 ticks on one core, stepped and timed by loops in C.
+    """
+    from hoap2.bench import plant as benchmark
+    from hoap2.bench import plant_shown
+
+    picture = out or Path("out") / "bench" / time.strftime("plant-%Y%m%d-%H%M%S.png")
+    with _status() as status:
+        document, runs = benchmark.run(seconds, repeat, status)
+    plant_shown.draw(document, runs, picture)
     if json:
-        print(json_module.dumps(document, indent=2))
+        print(json_module.dumps(document | {"picture": str(picture)}, indent=2))
     else:
-        _show(document)
+        plant_shown.show(document, picture)
     return 0
 
 
-def _median(runs: list[dict], name: str, key: str | None = None) -> float:
-    values = sorted(run[name][key] if key else run[name] for run in runs)
-    middle = len(values) // 2
-    return values[middle] if len(values) % 2 else (values[middle - 1] + values[middle]) / 2
+@app.command()
+def run(
+    repeat: Repeat = 3,
+    seconds: Annotated[
+        float | None, typer.Option(min=3.0, max=60.0, help="Simulated time; else all of floor-walk.")
+    ] = None,
+    fmi: Annotated[int, typer.Option(min=2, max=3, help="FMI version of the measured FMUs.")] = 3,
+    json: Json = False,
+) -> int:
+    """A whole run of floor-walk on one core: real-time factor, memory, and the parts of a tick.
 
+    Parts: the controller, the plant, the exchange through FMI (set, get and the step calls), the log, and the rest of
+    the loop. The video is left out, the report with its snapshots is not.
+    """
+    from hoap2.bench import chain, chain_shown
 
-def _show(document: dict) -> None:
-    from rich.console import Console
-    from rich.table import Table
-
-    runs, machine = document["runs"], document["machine"]
-    table = Table(title=f"a tick of 1 ms, in us (median of {len(runs)})", title_justify="left", box=None,
-                  padding=(0, 2))
-    for name, justify in (("part", "left"), ("median", "right"), ("p99", "right"), ("bound", "right")):
-        table.add_column(name, justify=justify)
-    for name, text, bound in ROWS:
-        p99 = f"{_median(runs, name, 'p99'):.1f}" if runs[0][name]["p99"] is not None else ""
-        table.add_row(text, f"{_median(runs, name, 'median'):.1f}", p99, f"{bound:g}" if bound else "")
-    console = Console(highlight=False, soft_wrap=True)
-    console.print(table)
-    console.print(f"  exchange: {_median(runs, 'fmu_exchange_share'):.0%} of models and exchange")
-    console.print(f"  whole run: {_median(runs, 'real_time_factor'):.2f} x real time "
-                  f"({_median(runs, 'run_wall_s'):.1f} s for {_median(runs, 'simulated_s'):.1f} s, start and report "
-                  f"included), peak memory {_median(runs, 'peak_memory_mb'):.0f} MB")
-    console.print(f"  {machine['processor']}, {machine['cores']} cores, load {machine['load']:.1f}, "
-                  f"FMI {document['fmi']}")
+    with _status() as status:
+        document = chain.run(repeat, fmi, seconds, status)
+    if json:
+        print(json_module.dumps(document, indent=2))
+    else:
+        chain_shown.show(document)
+    return 0

@@ -11,6 +11,8 @@ from .tables import Table
 FRICTION_RATE_RAD_S = 0.02
 STOP_STIFFNESS_NM_RAD, STOP_DAMPING_NMS_RAD = 2000.0, 5.0
 
+ELLIPTIC_IMPRATIO = 100  # how much stiffer than its normal direction a contact is along the ground
+
 HEADER = """\
 <?xml version="1.0"?>
 <!-- Generated from firmware/hoap2.json by ./hoap2 generate: do not edit.
@@ -31,7 +33,7 @@ HEADER = """\
   which solref (direct format) and solimp (constant impedance) set here for the option cone="pyramidal": its four edges
   have 4 R each, so the sum that carries the sole is the plant's. Along the ground MuJoCo yields more than the plant:
   a corner that sticks creeps by 2 h R / mu^2 = {creep:.2g} m/s a newton, the plant's by 1e-6 m/s. With cone="elliptic",
-  impratio="100", solref="{elliptic_k} {elliptic_b}" and solimp="{elliptic} {elliptic} 1" the normal direction is the
+  impratio="{impratio}", solref="{elliptic_k} {elliptic_b}" and solimp="{elliptic} {elliptic} 1" the normal direction is the
   plant's as well, and a corner creeps by {elliptic_creep:.2g} m/s a newton.
   Joint friction (viscous below {rate:g} rad/s) and the stops are matched in the same way.
   All this holds at the time step below, with any integrator but discrete. -->
@@ -153,7 +155,8 @@ def mjcf(table: Table) -> str:
     mu, regulariser = _default(table, "friction_mu")[0], contact_regulariser(table)
     header = HEADER.format(h=h, k=_default(table, "contact_stiffness_N_m")[0],
                            d=_default(table, "contact_damping_Ns_m")[0], rate=FRICTION_RATE_RAD_S,
-                           creep=2.0 * h * regulariser / (mu * mu), elliptic_creep=h * regulariser / 100.0,
+                           creep=2.0 * h * regulariser / (mu * mu), impratio=ELLIPTIC_IMPRATIO,
+                           elliptic_creep=h * regulariser / ELLIPTIC_IMPRATIO,
                            elliptic=elliptic[1].split()[0], elliptic_k=elliptic[0].split()[0],
                            elliptic_b=elliptic[0].split()[1])
     gravity = _default(table, "gravity_m_s2")[0]

@@ -1,0 +1,1 @@
+"""What things cost on this machine: `plant` the plant beside other simulators, `chain` a whole run and its parts."""

@@ -1,0 +1,206 @@
+"""`bench run`: a whole run of floor-walk, and where the time of its ticks goes.
+
+Real-time factor, wall clock and memory are those of an ordinary run in a process of its own. The parts of a tick come
+from a second walk, in which the FMUs and the bare libraries go side by side through the same ticks, so that a
+difference between them is the cost of FMI and not of another load. All of it is on one core.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from hoap2 import master, parameters, scenario
+from hoap2.bench import measure
+from hoap2.bench.measure import SCENARIO, Spread
+from hoap2.bench.recording import nested
+from hoap2.binding import Controller, Plant
+from hoap2.errors import UserError
+from hoap2.library_side import LibrarySide
+from hoap2.products import Choice, open_both
+from hoap2.signal_log import SignalLog
+
+NOW = time.perf_counter_ns
+PARTS = ("controller", "plant", "exchange", "log", "rest")
+
+
+@dataclass
+class Samples:
+    """Nanoseconds a tick of each part, and which of the ticks walked."""
+
+    parts: dict[str, list[int]] = field(default_factory=dict)
+    walking: list[bool] = field(default_factory=list)
+
+    def add(self, name: str, ns: int) -> None:
+        self.parts.setdefault(name, []).append(ns)
+
+    def array(self, name: str, walking: bool = False) -> np.ndarray:
+        """All ticks, or those in mode WALK (only for what is measured at each tick)."""
+        all_of = np.array(self.parts[name])
+        return all_of[np.array(self.walking)] if walking else all_of
+
+    def mean(self, name: str) -> float:
+        """Mean without the hundredth that is longest: interruptions by the system are not the part's."""
+        ns = np.sort(self.array(name))
+        return float(ns[: max(1, round(0.99 * ns.size))].mean())
+
+
+def call_overhead_ns(controller: Controller) -> float:
+    """What timing an empty call into a library costs; taken off the library's figures."""
+    empty = controller._c.hoap2_state_size
+    samples = np.empty(5000)
+    for k in range(samples.size):
+        start = NOW()
+        empty()
+        samples[k] = NOW() - start
+    return float(np.median(samples))
+
+
+def walk(loaded: scenario.Scenario, ticks: int, fmi: int) -> tuple[Samples, float]:
+    """Walk `ticks` ticks with the libraries and the FMUs side by side; samples, and the overhead in each (ns)."""
+    values = {product: {n: nested(product, n, v) for n, v in loaded.values[product].items()}
+              for product in loaded.values}
+    bare = Controller(**values["controller"]), Plant(**values["plant"])
+    opened = open_both(Choice(fmi=fmi), loaded)
+    try:
+        samples = _walk_both(bare, (opened.controller, opened.plant), ticks)
+    finally:
+        opened.close()
+    if not any(samples.walking):
+        raise UserError(f"the robot did not walk within {ticks} ticks; nothing to measure", "give more --seconds")
+    return samples, call_overhead_ns(bare[0])
+
+
+def _walk_both(bare: tuple[Controller, Plant], fmus: tuple[master.Side, master.Side], ticks: int) -> Samples:
+    sides = LibrarySide(bare[0]), LibrarySide(bare[1])
+    wires = [wire for a, b in (sides, fmus) for wire in (*master.connect(b, a), *master.connect(a, b))]
+    log = SignalLog(master.log_columns(*fmus), ticks + 1)
+    recorder = master.Recorder(*fmus, log)
+    walking = parameters.table().enums["mode"].index("walk")
+    (c, p), samples = bare, Samples()
+    c_step, p_step = c._c.hoap2_step, p._c.hoap2_plant_step
+    for k in range(ticks):
+        if k % 2:  # the outputs into a row of the log, as a run does it
+            t0 = NOW()
+            recorder.row()
+            samples.add("get_and_log", NOW() - t0)
+        t1 = NOW()
+        fmus[0].get_outputs()
+        fmus[1].get_outputs()
+        if k % 2 == 0:  # a second reading of the same values would be a warm one
+            samples.add("get", NOW() - t1)
+            log.count = k + 1
+        _assert_equal(sides, fmus, k)
+        samples.walking.append(c.outputs.mode == walking)
+        for into, out, index_in, index_out in wires:
+            into[index_in] = out[index_out]
+        t2 = NOW()
+        fmus[0].set_inputs()
+        fmus[1].set_inputs()
+        t3 = NOW()
+        c_step(c._state, c.inputs.pointer, c.outputs.pointer)
+        t4 = NOW()
+        p_step(p._handle, p.inputs.pointer)
+        t5 = NOW()
+        fmus[0].step()
+        t6 = NOW()
+        fmus[1].step()
+        t7 = NOW()
+        p._get_outputs()
+        for name, ns in (("set", t3 - t2), ("controller", t4 - t3), ("plant", t5 - t4),
+                         ("controller_fmu", t6 - t5), ("plant_fmu", t7 - t6)):
+            samples.add(name, ns)
+    return samples
+
+
+def _assert_equal(sides: tuple[LibrarySide, LibrarySide], fmus: tuple[master.Side, master.Side], tick: int) -> None:
+    for side, fmu in zip(sides, fmus):
+        if not (np.array_equal(side.real_out, fmu.real_out, equal_nan=True)
+                and np.array_equal(side.int_out, fmu.int_out)):
+            raise UserError(f"FMUs and libraries differ at tick {tick}: they come from different sources",
+                            "build again: ./hoap2 fmu build", 3)
+
+
+def parts_of(samples: Samples, overhead_ns: float) -> dict[str, float]:
+    """Mean microseconds a tick of all but the rest."""
+    mean = samples.mean
+    steps = mean("controller_fmu") + mean("plant_fmu")
+    model = mean("controller") + mean("plant") - 2.0 * overhead_ns
+    ns = {"controller": mean("controller") - overhead_ns, "plant": mean("plant") - overhead_ns,
+          "exchange": mean("get") + mean("set") + steps - model,
+          "log": mean("get_and_log") - mean("get")}
+    return {name: value / 1e3 for name, value in ns.items()}
+
+
+CHILD = """
+import json, sys, time
+from hoap2 import cli, master
+loop = master.run
+def timed(*arguments, **options):
+    begin = time.monotonic()
+    try:
+        return loop(*arguments, **options)
+    finally:
+        with open(sys.argv[1], "w") as file:
+            json.dump([begin, time.monotonic()], file)
+master.run = timed
+sys.exit(cli.main(sys.argv[2:]))
+"""
+
+
+def whole_run(fmi: int, duration_s: float | None) -> dict:
+    """An ordinary run without video in a process of its own, which inherits the one core."""
+    with tempfile.TemporaryDirectory(prefix="hoap2-bench-") as folder:
+        out, noted = Path(folder) / "run", Path(folder) / "loop.json"
+        command = [sys.executable, "-c", CHILD, str(noted), "run", SCENARIO, "--no-video", "--fmi", str(fmi), "--json",
+                   "--out", str(out), *([] if duration_s is None else ["--duration", str(duration_s)])]
+        begin = time.monotonic()
+        with open(Path(folder) / "stdout", "w+b") as output:
+            child = subprocess.Popen(command, stdout=output, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+            _, status, usage = os.wait4(child.pid, 0)
+            end = time.monotonic()
+            child.returncode = os.waitstatus_to_exitcode(status)
+            output.seek(0)
+            text = output.read()
+        if child.returncode not in (0, 1) or not noted.exists():
+            raise UserError(f"the run of {SCENARIO} ended with {child.returncode}", f"try ./hoap2 run {SCENARIO}")
+        summary = json.loads(text)
+        loop_begin, loop_end = json.loads(noted.read_text())
+    return {"real_time_factor": summary["real_time_factor"], "simulated_s": summary["duration_s"],
+            "wall_s": {"set_up": loop_begin - begin, "loop": loop_end - loop_begin, "report": end - loop_end,
+                       "total": end - begin},
+            "peak_memory_mb": usage.ru_maxrss / 1024}
+
+
+def once(fmi: int, duration_s: float | None = None) -> dict:
+    """One repetition: every figure."""
+    result = whole_run(fmi, duration_s)
+    loaded = scenario.load(SCENARIO)
+    samples, overhead = walk(loaded, round(result["simulated_s"] * 1e6 / parameters.table().tick_us), fmi)
+    split = parts_of(samples, overhead)
+    result["tick_us"] = parameters.table().tick_us / result["real_time_factor"]
+    split["rest"] = result["tick_us"] - sum(split.values())
+    result["split"] = {name: split[name] for name in PARTS}
+    walking = {f"{name}_us": vars(Spread.of(samples.array(name, walking=True), overhead))
+               for name in ("controller", "plant")}
+    return result | {"walking": walking | {"ticks": sum(samples.walking)}}
+
+
+def run(repeat: int, fmi: int, duration_s: float | None, progress: Callable[[str], None]) -> dict:
+    """All repetitions; the figures are their medians."""
+    runs = []
+    with measure.one_core() as core:
+        for number in range(repeat):
+            progress(f"run {number + 1} of {repeat}")
+            runs.append(once(fmi, duration_s))
+        about = measure.machine(core)
+    return {"machine": about, "fmi": fmi, "scenario": SCENARIO, **measure.medians(runs), "runs": runs}
