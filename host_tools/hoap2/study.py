@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
-import concurrent.futures
 import csv
 import io
 import json
-import multiprocessing
-import os
-import signal
 from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
-from hoap2 import bounds, metric_names, products, runfolder, runner, scenario, seeds, statistics, tables_shown
-from hoap2.errors import UserError
+from hoap2 import bounds, metric_names, parallel, products, runfolder, runner, scenario, seeds, statistics, tables_shown
 from hoap2.master import StopRequest
 from hoap2.progress import PartProgress
 from hoap2.tables_shown import MISSED, OK, in_unit
-
-POLL_S = 0.2
 
 
 @dataclass(frozen=True)
@@ -62,11 +55,6 @@ def run_one(request: Request, loaded: scenario.Scenario, out: str | None, consol
             folder.discard()  # nothing is left there after `finish`
 
 
-def _start_worker() -> None:
-    """Between runs a worker leaves Ctrl-C to its parent; during a run master.StopRequest listens."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 def _seed_run(request: Request, seed: int, path: Path) -> dict:
     loaded = request.load()
     seeds.apply(loaded, seed)
@@ -104,37 +92,20 @@ def _make_folder(folder: Path) -> None:
 def _run_all(request: Request, seed_list: list[int], folder: Path, jobs: int, stop: StopRequest,
              progress: PartProgress, summaries: dict, errors: dict) -> None:  # fmt: skip
     width = max(3, len(str(max(seed_list))))
-    context = multiprocessing.get_context("spawn")
-    workers = min(jobs, len(seed_list))
-    with concurrent.futures.ProcessPoolExecutor(workers, mp_context=context, initializer=_start_worker) as pool:
-        waiting = {
-            pool.submit(_seed_run, request, seed, folder / f"seed-{seed:0{width}d}"): seed for seed in seed_list
-        }
-        told = False
-        while waiting:
-            done, _ = concurrent.futures.wait(waiting, POLL_S, concurrent.futures.FIRST_COMPLETED)
-            for future in done:
-                seed = waiting.pop(future)
-                if not future.cancelled():
-                    _collect(future, seed, summaries, errors)
-            missed = sum(not s["ok"] for s in summaries.values()) + len(errors)
-            text = f"{len(summaries) + len(errors)} of {len(seed_list)} runs, {missed} not ok"
-            progress(len(summaries) + len(errors), len(seed_list), text)
-            if stop.signal is not None and not told:
-                told = True
-                for future in waiting:
-                    future.cancel()
-                for child in multiprocessing.active_children():  # a terminal's Ctrl-C reached them, a kill did not
-                    os.kill(child.pid, signal.SIGINT)
+    tasks = {seed: (request, seed, folder / f"seed-{seed:0{width}d}") for seed in seed_list}
 
+    def finished(seed: int, summary: dict | None, error: str | None) -> None:
+        if error is None:
+            summaries[seed] = summary
+        else:
+            errors[seed] = error
 
-def _collect(future: concurrent.futures.Future, seed: int, summaries: dict, errors: dict) -> None:
-    try:
-        summaries[seed] = future.result()
-    except UserError as error:
-        errors[seed] = str(error)
-    except Exception as error:  # a worker that died takes its run along, not the study
-        errors[seed] = f"{type(error).__name__}: {error}"
+    def beat() -> None:
+        missed = sum(not s["ok"] for s in summaries.values()) + len(errors)
+        done = len(summaries) + len(errors)
+        progress(done, len(seed_list), f"{done} of {len(seed_list)} runs, {missed} not ok")
+
+    parallel.run_all(_seed_run, tasks, jobs, stop, finished, beat)
 
 
 def _document(loaded: scenario.Scenario, seed_list: list[int], summaries: dict, errors: dict,
