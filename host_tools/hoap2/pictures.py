@@ -10,7 +10,7 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -131,14 +131,15 @@ def _caption(run: Recording, row: int) -> str:
     return f"{text}   step {int(step[0])}" if step is not None and step[0] > 0 else text
 
 
-def _still(scene: Scene, width: int, height: int) -> np.ndarray:
-    """A picture with smooth edges: four samples a pixel, at twice the size where that is possible."""
+def _stills(scenes: Iterable[Scene], width: int, height: int) -> Iterator[np.ndarray]:
+    """Pictures with smooth edges: four samples a pixel, at twice the size where that is possible."""
     factor = 2 if max(width, height) <= SUPERSAMPLING_UP_TO_PX else 1
-    with Renderer(width * factor, height * factor, samples=4) as camera:
-        picture = camera.draw(scene)
-    if factor == 1:
-        return picture
-    return np.array(Image.fromarray(picture).resize((width, height), Image.Resampling.BOX))
+    with Renderer(width * factor, height * factor, samples=4) as camera:  # one for all: it takes longer than a picture
+        for scene in scenes:
+            picture = camera.draw(scene)
+            if factor != 1:
+                picture = np.array(Image.fromarray(picture).resize((width, height), Image.Resampling.BOX))
+            yield picture
 
 
 def _check_target(path: Path, suffixes: tuple[str, ...], overwrite: bool) -> Path:
@@ -171,7 +172,7 @@ def write_frame(run: Recording | str | Path, t_s: float, path: str | Path, size:
     path = _check_target(Path(path), (".png", ".jpg", ".webp"), overwrite)
     run = _load(run)
     row = run.row(t_s)
-    picture = _still(scene_from_run(row, run, view, overlays=overlays), *size)
+    (picture,) = _stills([scene_from_run(row, run, view, overlays=overlays)], *size)
     if overlays:
         labels.caption(picture, _caption(run, row))
         labels.legend(picture, _has_push(run))
@@ -185,11 +186,10 @@ def strip(run: Recording | str | Path, times: list[float], path: str | Path, siz
     if not times:
         raise UserError("a strip needs at least one time")
     run = _load(run)
-    targets, pictures = camera_targets(run), []
-    for row in [run.row(t) for t in times]:
-        picture = _still(scene_from_run(row, run, view, targets[row], overlays), *size)
+    rows, targets = [run.row(t) for t in times], camera_targets(run)
+    pictures = list(_stills((scene_from_run(row, run, view, targets[row], overlays) for row in rows), *size))
+    for row, picture in zip(rows, pictures):
         labels.caption(picture, f"{run.t_s[row]:.2f} s")
-        pictures.append(picture)
     gap = np.full((size[1], 2, 3), 255, dtype=np.uint8)
     parts = [part for picture in pictures for part in (picture, gap)][:-1]
     return _save(np.concatenate(parts, axis=1), path)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from hoap2 import parameters, paths
@@ -12,6 +12,7 @@ from hoap2.generate.tables import PRODUCTS
 from hoap2.master import Side
 from hoap2.scenario import Scenario
 from hoap2.signal_log import Column, columns_of
+from hoap2.wall_clock import WallClock
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,7 @@ class Products:
     plant: Side
     files: dict[str, Path]
     instances: tuple[FmuInstance, ...] = ()
+    clock: WallClock = field(default_factory=WallClock)  # runs since they began to be opened
 
     def close(self) -> None:
         """Free the FMUs; a failing one does not keep the other."""
@@ -86,6 +88,7 @@ def _open(product: str, path: Path, scenario: Scenario) -> FmuInstance:
 
 def open_both(choice: Choice, scenario: Scenario) -> Products:
     """Both FMUs, started with the scenario's parameters; UserError when one cannot be used."""
+    clock = WallClock()
     files = {product: choice.path(product) for product in PRODUCTS}
     opened: list[FmuInstance] = []
     try:
@@ -97,4 +100,4 @@ def open_both(choice: Choice, scenario: Scenario) -> Products:
         if isinstance(error, UserError):
             raise
         raise UserError(str(error)) from None
-    return Products(FmuSide(opened[0]), FmuSide(opened[1]), files, tuple(opened))
+    return Products(FmuSide(opened[0]), FmuSide(opened[1]), files, tuple(opened), clock)

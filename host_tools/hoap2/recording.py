@@ -13,6 +13,9 @@ import pyarrow.parquet
 
 from hoap2 import parameters
 from hoap2.errors import UserError
+from hoap2.generate.tables import PRODUCTS
+from hoap2.scenario import Scenario
+from hoap2.signal_log import SignalLog
 
 RIGHT, LEFT = 0, 1
 _NEEDED = ("true_base_pos_W_m", "true_base_quat_W", "true_q_rad", "true_com_W_m", "true_cop_W_m",
@@ -131,15 +134,35 @@ def load(folder: str | Path) -> Recording:
     except (OSError, ValueError) as error:
         raise UserError(f"cannot read {settings}: {error}") from None
     t_s, signal = _read_signals(log)
+    return _finished(folder, t_s, signal, {p: document.get(p, {}) for p in PRODUCTS},
+                     document.get("scenario", {}).get("name", folder.name))  # fmt: skip
+
+
+def of_log(folder: Path, log: SignalLog, scenario: Scenario) -> Recording:
+    """The recording of a run that is still in memory; `folder` is where it is going to be."""
+    signal = {}
+    for prefix, names in (("p.", _NEEDED), ("c.", _CONTROLLER)):
+        for name in names:
+            block = log.block(prefix + name)
+            if block is None and names is _NEEDED:
+                raise UserError(f"the run has no signal {name}", "was it made by another version?")
+            if block is not None:
+                signal[name] = block
+    values = {p: {n: parameters.plain(parameters.known(p)[n], v) for n, v in scenario.values[p].items()}
+              for p in PRODUCTS}  # fmt: skip
+    return _finished(folder, log.t_s, signal, values, scenario.name)
+
+
+def _finished(folder: Path, t_s: np.ndarray, signal: dict[str, np.ndarray], values: dict[str, dict],
+              name: str) -> Recording:  # fmt: skip
     # A diverged run ends in values that are not numbers: show it up to there.
     motion = [signal[n] for n in ("true_base_pos_W_m", "true_base_quat_W", "true_q_rad")]
     finite = np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0)
     count = len(finite) if finite.all() else int(np.argmin(finite))
     if count == 0:
-        raise UserError(f"{log} holds no pose of the robot")
-    run = Recording(folder, t_s[:count], {n: v[:count] for n, v in signal.items()},
-                    document.get("controller", {}), document.get("plant", {}),
-                    document.get("scenario", {}).get("name", folder.name))  # fmt: skip
+        raise UserError(f"{folder} holds no pose of the robot")
+    run = Recording(folder, t_s[:count], {n: v[:count] for n, v in signal.items()}, values["controller"],
+                    values["plant"], name)  # fmt: skip
     if set(_CONTROLLER) <= set(run.signal):
         run.steps = _steps(run.signal["step_index"][:, 0], run.signal["stance_foot"][:, 0])
     return run

@@ -33,7 +33,7 @@ def write(path: Path, scenario: Scenario, log: SignalLog, summary: dict, picture
     run = plots.Run(log, scenario)
     parts = [_head(scenario, summary), _verdict(summary), _pictures(pictures), _bounds(summary), "<h2>Plots</h2>"]
     for name, title, caption in FIGURES:
-        picture = plots.svg(getattr(plots, name)(run), name)
+        picture = getattr(plots, name)(run).svg(title)
         parts.append(f"<figure><h3>{escape(title)}</h3>{picture}<figcaption>{escape(caption)}</figcaption></figure>")
     parts += [_numbers(summary), _parameters(scenario), _timing(summary)]
     title = escape(f"{scenario.name}: {scenario.title}")
@@ -145,7 +145,11 @@ def _timing(summary: dict) -> str:
         ["real-time factor (simulated over wall time of the loop)", number(summary["real_time_factor"], 3)],
         ["controller, us a tick: median, 99 %", _pair(summary["controller_us"])],
         ["plant, us a tick: median, 99 %", _pair(summary["plant_us"])],
-        ["exchange and log, us a tick", number(summary["exchange_and_log_us"], 3)],
+        ["setting the inputs of both, us a tick: median, 99 %", _pair(summary["set_us"])],
+        ["reading the outputs of both into the log, us a tick: median, 99 %", _pair(summary["get_and_log_us"])],
+        ["exchange and log in all, us a tick: mean", number(summary["exchange_and_log_us"], 3)],
+        ["set-up, loop, files, pictures, s", ", ".join(
+            number(summary["wall_s"][part], 3) for part in ("set_up", "loop", "files", "pictures"))],
         ["peak memory, MB", number(summary.get("peak_memory_mb"), 3)],
     ]
     return "<h2>Time and memory</h2>" + _table(["on this machine", ""], rows, "numbers")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
 import hashlib
 import subprocess
 import time
@@ -18,6 +20,8 @@ from hoap2.scenario import Scenario
 from hoap2.signal_log import SignalLog
 
 EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
+
+atexit.register(gc.freeze)  # to look for garbage in a process that ends takes 0.2 s, for nothing
 
 
 def ticks_of(scenario: Scenario) -> int:
@@ -84,7 +88,7 @@ def summarise(scenario: Scenario, outcome: master.Outcome) -> dict:
         "duration_s": outcome.timing.ticks * parameters.table().tick_us / 1e6,
         "duration_planned_s": scenario.duration_s,
         **numbers,
-        **{key: timing[key] for key in ("real_time_factor", "controller_us", "plant_us", "exchange_and_log_us")},
+        **{key: value for key, value in timing.items() if key != "loop_s"},
         "bounds": verdict,
     }
 
@@ -102,28 +106,42 @@ def execute(scenario: Scenario, products: Products, folder: RunFolder, stop: mas
 
     A stop request ends the simulation, or leaves out what is still to come after it.
     """
-    title = scenario.name + (f" seed {scenario.seed}" if scenario.seed else "")
-    progress = None if quiet else RunProgress(title, scenario.duration_s, scenario.steps_planned, console)
-    try:
-        outcome = master.run(products.controller, products.plant, ticks_of(scenario),
-                             scenario.options["stop_after_fall_s"], stop, progress)  # fmt: skip
-    finally:
-        if progress is not None:
-            progress.close()
-    summary = summarise(scenario, outcome) | {"notes": []}
-    folder.text("run.toml", resolved_toml(scenario, products.files))
-    outcome.log.write(folder.work / "signals.parquet")
-    finished = time.strftime("%Y-%m-%dT%H:%M:%S%z")
-    folder.json("timing.json", outcome.timing.summary() | {"finished": finished})
-    pictures = _pictures(folder, outcome.log, video, console, quiet, stop, summary["notes"])
-    summary["peak_memory_mb"] = peak_memory_mb()
+    clock = products.clock
+    clock.set_up_done()
+    with clock.part("loop"):
+        outcome = _simulate(scenario, products, stop, console, quiet)
+    with clock.part("files"):
+        folder.text("run.toml", resolved_toml(scenario, products.files))
+        outcome.log.write(folder.work / "signals.parquet")
+    with clock.part("report"):
+        summary = summarise(scenario, outcome) | {"notes": []}
+    with clock.part("pictures"):
+        pictures = _pictures(folder, scenario, outcome.log, video, console, quiet, stop, summary["notes"])
+    summary |= {"peak_memory_mb": peak_memory_mb(), "wall_s": clock.summary()}
     if outcome.log.count:
-        _report(folder, scenario, outcome.log, summary, pictures)
+        with clock.part("report"):
+            _report(folder, scenario, outcome.log, summary, pictures)
+    summary["wall_s"] = clock.summary()
+    finished = time.strftime("%Y-%m-%dT%H:%M:%S%z")
+    folder.json("timing.json", outcome.timing.summary() | {"wall_s": summary["wall_s"], "finished": finished})
     folder.json("summary.json", summary)
     return runfolder.jsonable(summary) | {"folder": str(folder.finish())}
 
 
-def _pictures(folder: RunFolder, log: SignalLog, video: bool, console: Console, quiet: bool,
+def _simulate(scenario: Scenario, products: Products, stop: master.StopRequest, console: Console,
+              quiet: bool) -> master.Outcome:  # fmt: skip
+    """The loop, with what it shows meanwhile."""
+    title = scenario.name + (f" seed {scenario.seed}" if scenario.seed else "")
+    progress = None if quiet else RunProgress(title, scenario.duration_s, scenario.steps_planned, console)
+    try:
+        return master.run(products.controller, products.plant, ticks_of(scenario),
+                          scenario.options["stop_after_fall_s"], stop, progress)  # fmt: skip
+    finally:
+        if progress is not None:
+            progress.close()
+
+
+def _pictures(folder: RunFolder, scenario: Scenario, log: SignalLog, video: bool, console: Console, quiet: bool,
               stop: master.StopRequest, notes: list[str]) -> dict[str, Path]:  # fmt: skip
     """Snapshots (as Fig. 7.10 A) and the video; a run is not lost for want of a picture, the reason is noted."""
     made: dict[str, Path] = {}
@@ -137,11 +155,12 @@ def _pictures(folder: RunFolder, log: SignalLog, video: bool, console: Console, 
         return stop.signal is None
 
     try:
-        from hoap2 import pictures
+        from hoap2 import pictures, recording
 
-        made["snapshots"] = pictures.strip(folder.work, _moments(log), folder.work / "snapshots.png", size=(240, 360))
+        run = recording.of_log(folder.path, log, scenario)
+        made["snapshots"] = pictures.strip(run, _moments(log), folder.work / "snapshots.png", size=(240, 360))
         if video:
-            written = pictures.write_video(folder.work, folder.work / "video.mp4", progress=show)
+            written = pictures.write_video(run, folder.work / "video.mp4", progress=show)
             if written is None:
                 notes.append("no video: stopped while it was rendered")
             else:

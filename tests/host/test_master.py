@@ -8,7 +8,7 @@ import signal
 import numpy as np
 import pytest
 
-from hoap2 import exchange, master
+from hoap2 import master, wiring
 from hoap2.errors import UserError
 from hoap2.signal_log import Column, read
 from sides import FakeSide, falling_plant, standing_plant, stepping_controller
@@ -112,7 +112,7 @@ def test_an_input_without_a_source_keeps_its_value():
     controller.inputs = [Column("wind_m_s", "m/s", "real"), *controller.inputs]
     controller.real_in = np.full(controller.real_in.size + 1, 5.0)
     real, integer = np.ones((2, plant.real_out.size)), np.ones((2, plant.int_out.size), dtype=np.int32)
-    exchange.writer(plant, controller, real, integer)(1)
+    wiring.writer(plant, controller, real, integer)(1)
     assert controller.real_in.tolist() == [5.0] + [1.0] * (controller.real_in.size - 1)
 
 

@@ -12,10 +12,11 @@ import time
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pyarrow.parquet
 import pytest
 
-from hoap2 import binding, cli, master, parameters, paths, products, scenario, seeds
+from hoap2 import binding, cli, master, parameters, paths, products, recording, scenario, seeds
 from sides import LibrarySide
 
 FILES = {"run.toml", "signals.parquet", "summary.json", "timing.json", "report.html"}
@@ -57,6 +58,11 @@ def test_a_short_run_leaves_a_whole_folder(hoap2_cli, tmp_path):
     assert summary["duration_s"] == 2.0 and printed["bounds"] == summary["bounds"]
     assert 0 < summary["peak_memory_mb"] < 500 and summary["controller_us"]["median"] > 0
     assert signals(folder).num_rows == 2001
+    timing, wall_s = json.loads((folder / "timing.json").read_text()), summary["wall_s"]
+    assert timing["wall_s"] == wall_s and list(wall_s) == ["set_up", "loop", "files", "pictures", "report", "total"]
+    assert all(value > 0 for value in wall_s.values()), "the process's own start counts as set-up"
+    assert sum(wall_s.values()) - wall_s["total"] <= wall_s["total"] + 0.001
+    assert wall_s["loop"] >= timing["loop_s"] - 0.001 and summary["set_us"] == timing["set_us"]
     record = tomllib.loads((folder / "run.toml").read_text())["record"]
     assert len(record["controller_sha256"]) == len(record["plant_sha256"]) == 64
 
@@ -112,6 +118,26 @@ def test_fmus_and_libraries_give_the_same_bits():
     assert fmus.error is None and direct.error is None and fmus.log.count == direct.log.count == 2501
     assert fmus.log.real.tobytes() == direct.log.real.tobytes()
     assert fmus.log.integer.tobytes() == direct.log.integer.tobytes()
+
+
+def test_pictures_are_drawn_from_what_the_folder_holds(run_here, tmp_path, monkeypatch):
+    """The run in memory and the folder read back are one recording."""
+    drawn = []
+
+    def strip(run, _times, path, **_):
+        drawn.append(run)
+        path.write_bytes(b"")
+        return path
+
+    monkeypatch.setattr("hoap2.pictures.strip", strip)
+    run_here("floor-walk", "--duration", "3", "--no-video", "--out", "a", "--seed", "3",
+             "--set", "controller.start_up_s=0.3", "--set", "controller.calibrate_s=0.2")  # fmt: skip
+    read, (memory,) = recording.load(tmp_path / "out" / "floor-walk" / "a"), drawn
+    assert memory.folder.resolve() == read.folder.resolve() and memory.name == read.name
+    assert memory.t_s.tobytes() == read.t_s.tobytes() and memory.signal.keys() == read.signal.keys()
+    assert all(np.array_equal(memory.signal[n], read.signal[n], equal_nan=True) for n in read.signal)
+    assert memory.steps == read.steps and len(read.steps) >= 2
+    assert memory.plant == read.plant and memory.controller == read.controller
 
 
 def test_a_missed_bound_is_exit_code_1(hoap2_cli, tmp_path):
