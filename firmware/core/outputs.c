@@ -117,6 +117,8 @@ static void fill_gait(const start_pose_t *start, double hip_height_m, const hoap
   point_to_world(start, gait->cp_ref_m, out->cp_ref_W_m);
   point_to_world(start, gait->cp_eos_m, out->cp_eos_W_m);
   vector_to_world(start, gait->tpcc_m, out->tpcc_shift_W_m);
+  vector_to_world(start, gait->com_deviation_m, out->com_deviation_W_m);
+  vector_to_world(start, gait->land_shift_m, out->landing_shift_W_m);
   for (int foot = 0; foot < 2; ++foot) {
     point_to_world(start, gait->feet.pos_O_m[foot], out->foot_ref_W_m[foot]);
     out->foot_ref_W_m[foot][2] = gait->feet.pos_O_m[foot][2];

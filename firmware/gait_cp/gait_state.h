@@ -15,9 +15,10 @@ typedef struct {
   double exp_tick;
 
   /* footprints: x (m), y (m), yaw (rad) */
-  double centre[3];  /* walking centre: where the middle between the feet would be */
-  double foot[2][3]; /* where each foot stands or last stood */
-  double land[3];    /* landing target of the step under way */
+  double centre[3];       /* walking centre: where the middle between the feet would be */
+  double foot[2][3];      /* where each foot stands or last stood */
+  double land[3];         /* landing target of the step under way */
+  double land_nominal[3]; /* the same without landing position control */
   double heading_from_rad;
   double heading_to_rad;
   double heading_rad; /* of the pelvis now */
@@ -37,6 +38,15 @@ typedef struct {
   double cop_error_m[2];
   double tpcc_m[2];
   double tpcc_rate_m_s[2];
+
+  /* landing position control, (7.14) */
+  double com_late_m[2];      /* CoM reference, as late as the sensors show the CoM */
+  double com_deviation_m[2]; /* sensed CoM minus that */
+  double lpc_axes_rad;       /* direction of the walk: along, across */
+  double lpc_extreme_m[2];   /* along, across: signed extreme of the deviation in the step under way */
+  double lpc_shift_m[2];     /* along, across: shift of the landing of the step under way */
+  double land_shift_m[2];    /* the same in O */
+  double foot_shift_m[2][2]; /* in O: of each foot where it stands, against its nominal footprint */
 
   /* whole-body map */
   double com_over_base_B_m[3]; /* CoM against the pelvis, last solution */

@@ -5,6 +5,7 @@
 #include "gait_cp/capture_point.hpp"
 #include "gait_cp/footprints.hpp"
 #include "gait_cp/gait_cp.h"
+#include "gait_cp/landing_control.hpp"
 #include "gait_cp/support_polygon.hpp"
 #include "gait_cp/swing.hpp"
 #include "gait_cp/tpcc.hpp"
@@ -15,10 +16,8 @@ namespace hoap2 {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
-constexpr int kReachSteps = 8;             // a step's geometry repeats after two steps
-constexpr double kReachExcess_m = 2e-4;    // draw-back of a leg that counts as out of reach
-constexpr double kSoleClearance_m = 2e-3;  // least gap between the soles in a landing
-constexpr double kRateTolerance = 1.2;     // joint rate of the plan against the limit
+constexpr int kReachSteps = 8;           // a step's geometry repeats after two steps
+constexpr double kReachExcess_m = 2e-4;  // draw-back of a leg that counts as out of reach
 
 double clip(double value, double limit) { return value < -limit ? -limit : (value > limit ? limit : value); }
 
@@ -131,7 +130,7 @@ void place_feet(const hoap2_params_t& params, hoap2_gait_t& gait) {
   double phase = 0.0;
   if (gait.swing_foot != 2) {
     const double along = static_cast<double>(gait.step_tick) / gait.step_ticks;
-    phase = (along - params.ds_fraction) / (1.0 - 2.0 * params.ds_fraction);
+    phase = swing_phase(params, along);
     gait.phase = phase > 0.0 && phase < 1.0 ? HOAP2_PHASE_SINGLE_SUPPORT : HOAP2_PHASE_DOUBLE_SUPPORT;
     gait.heading_rad =
         gait.heading_from_rad + hoap2_quintic(along) * (gait.heading_to_rad - gait.heading_from_rad);
@@ -168,6 +167,9 @@ int32_t trial_fault(const hoap2_gait_t& trial, const double q_last_rad[HOAP2_SIZ
     const int stance = 1 - trial.swing_foot;
     if (sole_clearance(trial.foot[stance], stance, trial.land) < kSoleClearance_m)
       return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
+    // Nothing is sensed in a trial: a shift means that the walk is narrower than the shift may make it.
+    if (trial.land_shift_m[0] != 0.0 || trial.land_shift_m[1] != 0.0)
+      return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
   }
   for (int i = 0; i < HOAP2_SIZE_JOINT; ++i) {
     const double rate_rad_s = (trial.q_ref_rad[i] - q_last_rad[i]) / kTick_s;
@@ -198,6 +200,7 @@ void hoap2_gait_reset(const hoap2_params_t* params, hoap2_gait_t* gait) {
   gait->cosh_tick = 0.5 * (gait->exp_tick + 1.0 / gait->exp_tick);
   gait->sinh_tick = 0.5 * (gait->exp_tick - 1.0 / gait->exp_tick);
   hoap2::stand_still(*gait);
+  for (int i = 0; i < 2; ++i) gait->com_late_m[i] = gait->com_m[i];
 }
 
 int32_t hoap2_gait_check_reach(const hoap2_params_t* params, const hoap2_gait_t* gait) {
@@ -232,6 +235,7 @@ void hoap2_gait_start(const hoap2_params_t* params, hoap2_gait_t* gait) {
 
 void hoap2_gait_step(const hoap2_params_t* params, const hoap2_sense_t* sense, hoap2_gait_t* gait) {
   hoap2::track_capture_point(*params, *sense, *gait);
+  hoap2::observe_deviation(*params, *sense, *gait);
   if (gait->walking) {
     const bool controlled = params->cp_controller != HOAP2_CP_CONTROLLER_PLAN;
     double plan_cop_m[2];

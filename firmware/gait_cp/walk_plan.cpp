@@ -3,6 +3,7 @@
 #include "core/scalar_math.h"
 #include "gait_cp/capture_point.hpp"
 #include "gait_cp/footprints.hpp"
+#include "gait_cp/landing_control.hpp"
 #include "gait_cp/support_polygon.hpp"
 
 namespace hoap2 {
@@ -41,6 +42,20 @@ void plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, doubl
   gait.cop_step_m[1] = inside.y;
 }
 
+// Capture point at the end of the step, over the landing foot or at last between the feet, and the CoP.
+void plan_step(const hoap2_params_t& params, bool last, hoap2_gait_t& gait) {
+  const int swing = gait.swing_foot;
+  const int stance = other(swing);
+  if (last) {
+    const double* right = swing == 0 ? gait.land : gait.foot[0];
+    const double* left = swing == 1 ? gait.land : gait.foot[1];
+    capture_point_between(params, right, left, gait.cp_eos_m);
+  } else {
+    capture_point_over(params, params.lpc_moves_cp ? gait.land : gait.land_nominal, swing, gait.cp_eos_m);
+  }
+  plan_cop(params, sole_polygon(gait.foot[stance], params.cop_margin_m), params.step_time_s, gait);
+}
+
 }  // namespace
 
 double ramp_s(const hoap2_params_t& params, const hoap2_gait_t& gait) {
@@ -62,7 +77,8 @@ void begin_shift(const hoap2_params_t& params, hoap2_gait_t& gait) {
   gait.swing_foot = 2;
   gait.phase = HOAP2_PHASE_DOUBLE_SUPPORT;
   capture_point_over(params, gait.foot[stance], stance, gait.cp_eos_m);
-  for (int i = 0; i < 3; ++i) gait.land[i] = gait.foot[params.first_swing_foot][i];
+  for (int i = 0; i < 3; ++i) gait.land[i] = gait.land_nominal[i] = gait.foot[params.first_swing_foot][i];
+  landing_control_reset(gait.centre[2], gait);
   plan_cop(params, hull_of_soles(gait.foot[0], gait.foot[1], params.cop_margin_m), params.start_shift_s,
            gait);
 }
@@ -76,21 +92,20 @@ void begin_step(const hoap2_params_t& params, hoap2_gait_t& gait) {
   gait.step_tick = 0;
   gait.step_ticks = step_ticks(params.step_time_s);
   advance_centre(params, swing, gait.step_index > params.steps_forward, gait.centre);
-  footprint_beside(gait.centre, swing, params.step_width_m, gait.land);
+  footprint_beside(gait.centre, swing, params.step_width_m, gait.land_nominal);
+  for (int i = 0; i < 3; ++i) gait.land[i] = gait.land_nominal[i];
   gait.heading_from_rad = gait.heading_rad;
   gait.heading_to_rad = 0.5 * (gait.foot[stance][2] + gait.land[2]);
-  if (last) {
-    const double* right = swing == 0 ? gait.land : gait.foot[0];
-    const double* left = swing == 1 ? gait.land : gait.foot[1];
-    capture_point_between(params, right, left, gait.cp_eos_m);
-  } else {
-    capture_point_over(params, gait.land, swing, gait.cp_eos_m);
-  }
-  plan_cop(params, sole_polygon(gait.foot[stance], params.cop_margin_m), params.step_time_s, gait);
+  plan_step(params, last, gait);
+  if (!params.landing_control) return;
+  shift_landing(params, last, gait);
+  // The plan goes on as if no landing were shifted, but ends over the middle of the feet as they stand.
+  if (params.lpc_moves_cp || last) plan_step(params, last, gait);
 }
 
 void end_step(hoap2_gait_t& gait) {
   for (int i = 0; i < 3; ++i) gait.foot[gait.swing_foot][i] = gait.land[i];
+  for (int i = 0; i < 2; ++i) gait.foot_shift_m[gait.swing_foot][i] = gait.land_shift_m[i];
   ++gait.steps_done;
 }
 

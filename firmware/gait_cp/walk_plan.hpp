@@ -7,6 +7,8 @@
 namespace hoap2 {
 
 constexpr double kTick_s = 1e-6 * HOAP2_TICK_US;
+constexpr double kSoleClearance_m = 2e-3;  // least gap between the soles in a landing
+constexpr double kRateTolerance = 1.2;     // joint rate of the plan against the limit
 
 // The shift before the first lift: the capture point goes to the first stance foot (step index 0).
 void begin_shift(const hoap2_params_t& params, hoap2_gait_t& gait);
@@ -23,6 +25,11 @@ void begin_settling(const hoap2_params_t& params, hoap2_gait_t& gait);
 // Length of the CoP ramp of the step under way: cop_ramp_s, but no longer than the double support the step
 // begins with, because the CoP it leaves lies under the foot about to lift.
 double ramp_s(const hoap2_params_t& params, const hoap2_gait_t& gait);
+
+// Phase of the swing (0 lift-off, 1 touchdown, beyond on the floor) at a part of the step.
+inline double swing_phase(const hoap2_params_t& params, double part) {
+  return (part - params.ds_fraction) / (1.0 - 2.0 * params.ds_fraction);
+}
 
 // Duration of a step or of the shift in ticks.
 int32_t step_ticks(double duration_s);
