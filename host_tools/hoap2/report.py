@@ -141,6 +141,7 @@ def _parameters(scenario: Scenario) -> str:
 
 
 def _timing(summary: dict) -> str:
+    parts_s = [number(summary["wall_s"][part], 3) for part in ("set_up", "loop", "files", "pictures")]
     rows = [
         ["real-time factor (simulated over wall time of the loop)", number(summary["real_time_factor"], 3)],
         ["controller, us a tick: median, 99 %", _pair(summary["controller_us"])],
@@ -148,8 +149,7 @@ def _timing(summary: dict) -> str:
         ["setting the inputs of both, us a tick: median, 99 %", _pair(summary["set_us"])],
         ["reading the outputs of both into the log, us a tick: median, 99 %", _pair(summary["get_and_log_us"])],
         ["exchange and log in all, us a tick: mean", number(summary["exchange_and_log_us"], 3)],
-        ["set-up, loop, files, pictures, s", ", ".join(
-            number(summary["wall_s"][part], 3) for part in ("set_up", "loop", "files", "pictures"))],
+        ["set-up, loop, files, pictures, s", ", ".join(parts_s)],
         ["peak memory, MB", number(summary.get("peak_memory_mb"), 3)],
     ]
     return "<h2>Time and memory</h2>" + _table(["on this machine", ""], rows, "numbers")

@@ -162,7 +162,8 @@ def _legend(axes: Axes, box: Box) -> Iterable[str]:
         if isinstance(kind, Patch):
             yield _patch(kind, [(x, y - 5), (x + sample, y - 5), (x + sample, y), (x, y)])
         else:
-            yield _strokes(kind, [f"M{x + 9:.1f} {y - 2.5:.1f}h0" if kind.dots else f"M{x:.1f} {y - 2.5:.1f}h{sample:g}"])
+            start, length = (x + sample / 2, 0.0) if kind.dots else (x, sample)
+            yield _strokes(kind, [f"M{start:.1f} {y - 2.5:.1f}h{length:g}"])
         yield text(x + sample + 5, y, label, more=f'font-size="{SMALL:g}"')
         x += width + gap
 

@@ -73,9 +73,10 @@ def test_rows_carry_what_the_arrays_carry(files: FmuSet, product: str, version: 
     with open_fmu(files, product, version) as fmu, open_fmu(files, product, version) as other:
         for each in (fmu, other):
             each.initialize()
-        sizes = {"in": (fmu.inputs_real.size, fmu.inputs_int.size), "out": (fmu.outputs_real.size, fmu.outputs_int.size)}
-        given = np.full((3, sizes["in"][0] + 5), 0.25), np.full((3, sizes["in"][1] + 5), 1, dtype=np.int32)
-        found = np.full((3, sizes["out"][0] + 5), np.nan), np.full((3, sizes["out"][1] + 5), -7, dtype=np.int32)
+        given = (np.full((3, fmu.inputs_real.size + 5), 0.25),
+                 np.full((3, fmu.inputs_int.size + 5), 1, dtype=np.int32))  # fmt: skip
+        found = (np.full((3, fmu.outputs_real.size + 5), np.nan),
+                 np.full((3, fmu.outputs_int.size + 5), -7, dtype=np.int32))  # fmt: skip
         write = fmu.writes_from(*(a[:, 2:-3] for a in given))
         read = fmu.reads_into(*(a[:, 2:-3] for a in found))
         step = fmu.stepper()
