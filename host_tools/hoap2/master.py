@@ -19,8 +19,8 @@ import numpy as np
 
 from hoap2 import metrics, parameters
 from hoap2.errors import UserError
-from hoap2.wiring import Recorder, Side, check_connections, connect, log_columns, writer
 from hoap2.signal_log import SignalLog
+from hoap2.wiring import Recorder, Side, check_connections, connect, log_columns, writer
 
 __all__ = ["Outcome", "Recorder", "Side", "StopRequest", "Timing", "connect", "log_columns", "run"]
 
