@@ -33,7 +33,7 @@ def write(path: Path, scenario: Scenario, log: SignalLog, summary: dict, picture
     run = plots.Run(log, scenario)
     parts = [_head(scenario, summary), _verdict(summary), _pictures(pictures), _bounds(summary), "<h2>Plots</h2>"]
     for name, title, caption in FIGURES:
-        picture = getattr(plots, name)(run).svg(title)
+        picture = plots.svg(getattr(plots, name)(run), name)
         parts.append(f"<figure><h3>{escape(title)}</h3>{picture}<figcaption>{escape(caption)}</figcaption></figure>")
     parts += [_numbers(summary), _parameters(scenario), _timing(summary)]
     title = escape(f"{scenario.name}: {scenario.title}")
