@@ -1,0 +1,1 @@
+"""Studies: many runs of several scenarios, kept by what decides them, judged together."""
