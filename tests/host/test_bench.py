@@ -36,14 +36,19 @@ def test_one_core_is_one_core_and_is_given_back():
     assert os.sched_getaffinity(0) == before
 
 
+def test_the_idlest_core_is_one_of_those_allowed():
+    assert measure.idlest({0}, 0.01) == 0
+    assert measure.idlest({10**6}, 0.01) == 10**6  # not told of: the last one allowed
+
+
 # bench run
 
 
 def test_fmus_and_libraries_walk_side_by_side():
     loaded = scenario.load("floor-walk", ["controller.calibrate_s=0.2"])
     samples, overhead = chain.walk(loaded, 1500, fmi=2)
-    assert 200 < samples.array("controller", walking=True).size < samples.array("controller").size == 1500
-    assert overhead > 0 and (samples.array("plant") > 0).all()
+    assert samples.walked and overhead > 0
+    assert samples.array("controller").size == 1500 and (samples.array("plant") > 0).all()
     assert samples.array("get").size == samples.array("get_and_log").size == 750
 
 
@@ -56,12 +61,17 @@ def test_no_walk_is_an_error():
 def test_parts_add_up():
     samples = chain.Samples()
     for name, ns in (("controller", 3000), ("plant", 9000), ("controller_fmu", 3500), ("plant_fmu", 9700),
-                     ("get", 2000), ("set", 1000), ("get_and_log", 2600)):
+                     ("get", 2000), ("get_and_log", 2600)):
         samples.add(name, ns)
-    parts = chain.parts_of(samples, overhead_ns=100.0)
-    assert parts == pytest.approx({"controller": 2.9, "plant": 8.9, "exchange": 4.4, "log": 0.6})
-    # whatever the split: libraries, FMI and log make up what the loop calls
-    assert sum(parts.values()) == pytest.approx((3500 + 9700 + 1000 + 2600) / 1e3)
+    loop_us = {"set": 1.0, "controller": 5.0, "plant": 12.0, "get_and_log": 3.0}
+    split = chain.split_of(loop_us, 25.0, samples, overhead_ns=100.0)
+    # FMI's step calls take 0.5 + 0.1 and 0.7 + 0.1 us, the log 0.6
+    assert split == pytest.approx({"controller": 4.4, "plant": 11.2, "exchange": 1.0 + 3.0 - 0.6 + 1.4, "log": 0.6,
+                                   "rest": 4.0})
+
+
+def test_mean_leaves_interruptions_out():
+    assert measure.mean(np.array([10] * 99 + [10**6])) == 10.0
 
 
 # bench plant
@@ -189,7 +199,9 @@ def test_json_of_a_run_holds_every_figure(hoap2_cli):
     wall = document["wall_s"]
     assert wall["total"] == pytest.approx(wall["set_up"] + wall["loop"] + wall["report"], rel=1e-6)
     assert wall["loop"] == pytest.approx(4.0 / document["real_time_factor"], rel=0.2)
-    assert 50 < document["peak_memory_mb"] < 5000 and document["walking"]["controller_us"]["median"] > 0
+    assert 50 < document["peak_memory_mb"] < 5000 and document["walking"]["controller"]["median"] > 0
+    in_loop = sum(document["split"].values()) - document["split"]["rest"]
+    assert in_loop == pytest.approx(sum(document["loop"].values()))
 
 
 @pytest.mark.slow

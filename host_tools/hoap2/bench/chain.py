@@ -1,8 +1,8 @@
 """`bench run`: a whole run of floor-walk, and where the time of its ticks goes.
 
-Real-time factor, wall clock and memory are those of an ordinary run in a process of its own. The parts of a tick come
-from a second walk, in which the FMUs and the bare libraries go side by side through the same ticks, so that a
-difference between them is the cost of FMI and not of another load. All of it is on one core.
+Real-time factor, wall clock, memory and the durations in the loop are those of an ordinary run in a process of its own.
+A second walk tells how much of the FMUs' steps is FMI: in it the FMUs and the bare libraries go side by side through the
+same ticks, so that a difference between them is not one of another load. All of it is on one core.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ import numpy as np
 
 from hoap2 import master, parameters, scenario
 from hoap2.bench import measure
-from hoap2.bench.measure import SCENARIO, Spread
+from hoap2.bench.measure import SCENARIO
 from hoap2.bench.recording import nested
 from hoap2.binding import Controller, Plant
 from hoap2.errors import UserError
@@ -35,23 +35,19 @@ PARTS = ("controller", "plant", "exchange", "log", "rest")
 
 @dataclass
 class Samples:
-    """Nanoseconds a tick of each part, and which of the ticks walked."""
+    """Nanoseconds a tick of each part, and whether any of the ticks walked."""
 
     parts: dict[str, list[int]] = field(default_factory=dict)
-    walking: list[bool] = field(default_factory=list)
+    walked: bool = False
 
     def add(self, name: str, ns: int) -> None:
         self.parts.setdefault(name, []).append(ns)
 
-    def array(self, name: str, walking: bool = False) -> np.ndarray:
-        """All ticks, or those in mode WALK (only for what is measured at each tick)."""
-        all_of = np.array(self.parts[name])
-        return all_of[np.array(self.walking)] if walking else all_of
+    def array(self, name: str) -> np.ndarray:
+        return np.array(self.parts[name])
 
     def mean(self, name: str) -> float:
-        """Mean without the hundredth that is longest: interruptions by the system are not the part's."""
-        ns = np.sort(self.array(name))
-        return float(ns[: max(1, round(0.99 * ns.size))].mean())
+        return measure.mean(self.array(name))
 
 
 def call_overhead_ns(controller: Controller) -> float:
@@ -75,7 +71,7 @@ def walk(loaded: scenario.Scenario, ticks: int, fmi: int) -> tuple[Samples, floa
         samples = _walk_both(bare, (opened.controller, opened.plant), ticks)
     finally:
         opened.close()
-    if not any(samples.walking):
+    if not samples.walked:
         raise UserError(f"the robot did not walk within {ticks} ticks; nothing to measure", "give more --seconds")
     return samples, call_overhead_ns(bare[0])
 
@@ -100,7 +96,7 @@ def _walk_both(bare: tuple[Controller, Plant], fmus: tuple[master.Side, master.S
             samples.add("get", NOW() - t1)
             log.count = k + 1
         _assert_equal(sides, fmus, k)
-        samples.walking.append(c.outputs.mode == walking)
+        samples.walked |= c.outputs.mode == walking
         for into, out, index_in, index_out in wires:
             into[index_in] = out[index_out]
         t2 = NOW()
@@ -130,38 +126,25 @@ def _assert_equal(sides: tuple[LibrarySide, LibrarySide], fmus: tuple[master.Sid
                             "build again: ./hoap2 fmu build", 3)
 
 
-def parts_of(samples: Samples, overhead_ns: float) -> dict[str, float]:
-    """Mean microseconds a tick of all but the rest."""
-    mean = samples.mean
-    steps = mean("controller_fmu") + mean("plant_fmu")
-    model = mean("controller") + mean("plant") - 2.0 * overhead_ns
-    ns = {"controller": mean("controller") - overhead_ns, "plant": mean("plant") - overhead_ns,
-          "exchange": mean("get") + mean("set") + steps - model,
-          "log": mean("get_and_log") - mean("get")}
-    return {name: value / 1e3 for name, value in ns.items()}
+def split_of(loop_us: dict[str, float], tick_us: float, samples: Samples, overhead_ns: float) -> dict[str, float]:
+    """Microseconds a tick of each part: what the run's loop saw, taken apart by what the walk beside it tells.
 
-
-CHILD = """
-import json, sys, time
-from hoap2 import cli, master
-loop = master.run
-def timed(*arguments, **options):
-    begin = time.monotonic()
-    try:
-        return loop(*arguments, **options)
-    finally:
-        with open(sys.argv[1], "w") as file:
-            json.dump([begin, time.monotonic()], file)
-master.run = timed
-sys.exit(cli.main(sys.argv[2:]))
-"""
+    loop_us: means of `set`, `controller`, `plant`, `get_and_log` in the run.
+    """
+    calls = {product: (samples.mean(f"{product}_fmu") - samples.mean(product) + overhead_ns) / 1e3
+             for product in ("controller", "plant")}
+    split = {product: loop_us[product] - call for product, call in calls.items()}
+    split["log"] = (samples.mean("get_and_log") - samples.mean("get")) / 1e3
+    split["exchange"] = loop_us["set"] + loop_us["get_and_log"] - split["log"] + sum(calls.values())
+    split["rest"] = tick_us - sum(split.values())
+    return {name: split[name] for name in PARTS}
 
 
 def whole_run(fmi: int, duration_s: float | None) -> dict:
     """An ordinary run without video in a process of its own, which inherits the one core."""
     with tempfile.TemporaryDirectory(prefix="hoap2-bench-") as folder:
         out, noted = Path(folder) / "run", Path(folder) / "loop.json"
-        command = [sys.executable, "-c", CHILD, str(noted), "run", SCENARIO, "--no-video", "--fmi", str(fmi), "--json",
+        command = [sys.executable, "-m", "hoap2.bench.child", str(noted), "run", SCENARIO, "--no-video", "--fmi", str(fmi), "--json",
                    "--out", str(out), *([] if duration_s is None else ["--duration", str(duration_s)])]
         begin = time.monotonic()
         with open(Path(folder) / "stdout", "w+b") as output:
@@ -174,11 +157,12 @@ def whole_run(fmi: int, duration_s: float | None) -> dict:
         if child.returncode not in (0, 1) or not noted.exists():
             raise UserError(f"the run of {SCENARIO} ended with {child.returncode}", f"try ./hoap2 run {SCENARIO}")
         summary = json.loads(text)
-        loop_begin, loop_end = json.loads(noted.read_text())
+        notes = json.loads(noted.read_text())
+    loop_begin, loop_end = notes["begin"], notes["end"]
     return {"real_time_factor": summary["real_time_factor"], "simulated_s": summary["duration_s"],
             "wall_s": {"set_up": loop_begin - begin, "loop": loop_end - loop_begin, "report": end - loop_end,
                        "total": end - begin},
-            "peak_memory_mb": usage.ru_maxrss / 1024}
+            "peak_memory_mb": usage.ru_maxrss / 1024, "loop": notes["us"], "walking": notes["walking_us"]}
 
 
 def once(fmi: int, duration_s: float | None = None) -> dict:
@@ -186,13 +170,9 @@ def once(fmi: int, duration_s: float | None = None) -> dict:
     result = whole_run(fmi, duration_s)
     loaded = scenario.load(SCENARIO)
     samples, overhead = walk(loaded, round(result["simulated_s"] * 1e6 / parameters.table().tick_us), fmi)
-    split = parts_of(samples, overhead)
     result["tick_us"] = parameters.table().tick_us / result["real_time_factor"]
-    split["rest"] = result["tick_us"] - sum(split.values())
-    result["split"] = {name: split[name] for name in PARTS}
-    walking = {f"{name}_us": vars(Spread.of(samples.array(name, walking=True), overhead))
-               for name in ("controller", "plant")}
-    return result | {"walking": walking | {"ticks": sum(samples.walking)}}
+    result["split"] = split_of(result["loop"], result["tick_us"], samples, overhead)
+    return result
 
 
 def run(repeat: int, fmi: int, duration_s: float | None, progress: Callable[[str], None]) -> dict:
@@ -203,4 +183,7 @@ def run(repeat: int, fmi: int, duration_s: float | None, progress: Callable[[str
             progress(f"run {number + 1} of {repeat}")
             runs.append(once(fmi, duration_s))
         about = measure.machine(core)
-    return {"machine": about, "fmi": fmi, "scenario": SCENARIO, **measure.medians(runs), "runs": runs}
+    middle = measure.medians(runs)
+    # medians of parts do not add up by themselves
+    middle["split"]["rest"] += middle["tick_us"] - sum(middle["split"].values())
+    return {"machine": about, "fmi": fmi, "scenario": SCENARIO, **middle, "runs": runs}

@@ -28,9 +28,8 @@ def show(document: dict) -> None:
     console.print(table)
     console.print()
     walking, wall, machine = document["walking"], document["wall_s"], document["machine"]
-    console.print("  while walking, median (p99): " + ", ".join(
-        f"{name} {walking[f'{name}_us']['median']:.1f} ({walking[f'{name}_us']['p99']:.1f}) us"
-        for name in ("controller", "plant")))
+    console.print("  while walking, median (p99), with the step calls of FMI: " + ", ".join(
+        f"{name} {walking[name]['median']:.1f} ({walking[name]['p99']:.1f}) us" for name in ("controller", "plant")))
     console.print(f"  {document['real_time_factor']:.1f} x real time: {wall['loop']:.2f} s for "
                   f"{document['simulated_s']:.1f} s; with set-up ({wall['set_up']:.2f} s) and report "
                   f"({wall['report']:.2f} s) {wall['total']:.2f} s")
