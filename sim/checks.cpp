@@ -111,6 +111,9 @@ std::string fault_of_params(const hoap2_plant_params_t &params) {
     return "parameter friction_law: ODE's solver knows only the pyramid; leave friction_law out, or take "
            "solver = articulated";
   }
+  if (params.ground == HOAP2_GROUND_SOIL && params.solver == HOAP2_SOLVER_ODE) {
+    return "parameter ground: ODE's solver knows only the rigid floor; take solver = articulated for soil";
+  }
   return "";
 }
 
@@ -159,7 +162,10 @@ std::string fault_of_memory(const State &state) {
   for (const BodyState &body : state.body) {
     if (!sane(body.omega_before_W_rad_s, 3)) return "body rates";
   }
-  return sane(state.cop_W_m, 2) && sane(state.push_force_W_N, 3) && state.tick >= 0 ? "" : "outputs or tick";
+  return sane(state.cop_W_m, 2) && sane(state.push_force_W_N, 3) && sane(state.sinkage_m, 2) &&
+                 state.tick >= 0
+             ? ""
+             : "outputs or tick";
 }
 
 std::string fault_of_bodies(const State &state) {

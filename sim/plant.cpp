@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "checks.h"
 #include "drive/drive.h"
@@ -14,9 +15,11 @@
 #include "push/push.h"
 #include "robot/kinematics.h"
 #include "sensors/sensors.h"
+#include "soil/soil.h"
 #include "solver/articulated_solver.h"
 #include "solver/ode_solver.h"
 #include "terrain/contact.h"
+#include "truth/foot_wrench.h"
 #include "truth/truth.h"
 
 namespace hoap2_sim {
@@ -29,7 +32,7 @@ class Plant {
  public:
   int init(const hoap2_plant_params_t &params);
   int step(const hoap2_plant_inputs_t &inputs);
-  std::size_t state_size() const { return sizeof(State); }
+  std::size_t state_size() const { return sizeof(State) + (on_soil() ? soil_.state_bytes() : 0); }
   void save(void *bytes) const;
   int restore(const void *bytes, std::size_t size);
   const State &state() const { return state_; }
@@ -37,12 +40,14 @@ class Plant {
 
  private:
   int fail(const std::string &text);
-  int build();
+  bool on_soil() const { return soil_built_ && state_.params.ground == HOAP2_GROUND_SOIL; }
+  int build_world();
+  int build_soil();
   void give_up_world();
+  std::string restore_soil(const void *bytes, std::size_t size);
   void apply_pushes(LinkLoad load[HOAP2_LINKS], State *next) const;
-  void solve(const hoap2_plant_inputs_t &inputs, State *next);
+  int solve(const hoap2_plant_inputs_t &inputs, State *next);
   bool correct_saturation(const double rate_rad_s[HOAP2_JOINTS], bool may_release);
-  void gather_contacts(State *next) const;
 
   State state_ = {};
   Mat3 axes_W_[HOAP2_LINKS];       // of state_
@@ -50,6 +55,9 @@ class Plant {
   std::unique_ptr<TickSolver> solver_;
   Ground ground_;
   ContactList contacts_;
+  Soil soil_;
+  bool soil_built_ = false;
+  SoilLoad soil_load_[HOAP2_LINKS];
   Drive drive_[HOAP2_JOINTS];
   char error_[256] = "";
 };
@@ -60,7 +68,7 @@ int Plant::fail(const std::string &text) {
   return 1;
 }
 
-int Plant::build() {
+int Plant::build_world() {
   try {
     if (state_.params.solver == HOAP2_SOLVER_ODE) {
       solver_ = std::make_unique<OdeSolver>(state_.params);
@@ -72,6 +80,19 @@ int Plant::build() {
     give_up_world();
     return fail(failure.what());
   }
+  return 0;
+}
+
+int Plant::build_soil() {
+  soil_built_ = false;
+  if (state_.params.ground != HOAP2_GROUND_SOIL) return 0;
+  const std::string fault = soil_.build(state_.params);
+  if (!fault.empty()) {
+    solver_.reset();
+    return fail(fault);
+  }
+  soil_built_ = true;
+  soil_.start();
   return 0;
 }
 
@@ -101,16 +122,21 @@ int Plant::init(const hoap2_plant_params_t &params) {
   }
   sensors_start(&state_);
   error_[0] = '\0';
-  return build();
+  if (build_world() != 0 || build_soil() != 0) return 1;
+  state_.size = static_cast<std::uint32_t>(state_size());
+  return 0;
 }
 
-void Plant::save(void *bytes) const { std::memcpy(bytes, &state_, sizeof state_); }
+void Plant::save(void *bytes) const {
+  std::memcpy(bytes, &state_, sizeof state_);
+  if (on_soil()) soil_.save(static_cast<char *>(bytes) + sizeof state_);
+}
 
 int Plant::restore(const void *bytes, std::size_t size) {
   if (size < sizeof(State)) return fail("the block is too short for a plant state");
   State saved;
   std::memcpy(&saved, bytes, sizeof saved);
-  if (saved.magic != kStateMagic || saved.version != kStateVersion || saved.size != sizeof(State)) {
+  if (saved.magic != kStateMagic || saved.version != kStateVersion || saved.size != size) {
     return fail("the block is not a plant state of this version");
   }
   // The block may come from a file: nothing of it is believed that could break the engine.
@@ -118,10 +144,25 @@ int Plant::restore(const void *bytes, std::size_t size) {
   if (!fault.empty()) return fail("the saved state is damaged: " + fault);
   const bool same_world =
       solver_ != nullptr && std::memcmp(&saved.params, &state_.params, sizeof saved.params) == 0;
+  std::vector<char> kept(state_size());
+  save(kept.data());
+  const bool was_built = solver_ != nullptr;
   state_ = saved;
+  const char *const soil = static_cast<const char *>(bytes) + sizeof saved;
+  if (!same_world && (build_world() != 0 || build_soil() != 0)) return 1;
+  const std::string bad_soil = restore_soil(soil, size - sizeof saved);
+  if (!bad_soil.empty()) {
+    if (was_built) restore(kept.data(), kept.size());
+    return fail("the saved state is damaged: " + bad_soil);
+  }
   all_link_axes_W(state_, axes_W_);
   error_[0] = '\0';
-  return same_world ? 0 : build();
+  return 0;
+}
+
+std::string Plant::restore_soil(const void *bytes, std::size_t size) {
+  if (size != state_size() - sizeof(State)) return "the soil has another size";
+  return on_soil() ? soil_.restore(bytes) : "";
 }
 
 void Plant::apply_pushes(LinkLoad load[HOAP2_LINKS], State *next) const {
@@ -154,14 +195,19 @@ bool Plant::correct_saturation(const double rate_rad_s[HOAP2_JOINTS], bool may_r
   return changed;
 }
 
-void Plant::solve(const hoap2_plant_inputs_t &inputs, State *next) {
+// Non-zero: the soil cannot carry on (error() says why).
+int Plant::solve(const hoap2_plant_inputs_t &inputs, State *next) {
   LinkLoad load[HOAP2_LINKS];
   MotorRow row[HOAP2_JOINTS];
   double rate_rad_s[HOAP2_JOINTS];
   for (int j = 0; j < HOAP2_JOINTS; ++j) drive_[j].begin(state_, inputs, j);
   ground_.find_contacts(state_, axes_W_, &contacts_);
   apply_pushes(load, next);
-  solver_->begin({&state_, axes_W_, load, &contacts_});
+  if (on_soil()) {
+    const std::string fault = soil_.find_loads(state_, axes_W_, soil_load_);
+    if (!fault.empty()) return fail(fault);
+  }
+  solver_->begin({&state_, axes_W_, load, &contacts_, on_soil() ? soil_load_ : nullptr});
   for (int solves = 1; solves <= kMaxSolves; ++solves) {
     for (int j = 0; j < HOAP2_JOINTS; ++j) row[j] = drive_[j].row();
     solver_->solve(row, rate_rad_s);
@@ -173,27 +219,7 @@ void Plant::solve(const hoap2_plant_inputs_t &inputs, State *next) {
     next->drive[j] =
         drive_[j].finish(joint_angle_rad(*next, j), joint_rate_rad_s(*next, next_axes_W_, j), rate_rad_s[j]);
   }
-}
-
-// Sum of the contact loads on each foot about the sole point of the tick's start.
-void Plant::gather_contacts(State *next) const {
-  next->other_contacts = 0;
-  for (FootWrench &wrench : next->foot) wrench = FootWrench{};
-  for (int i = 0; i < contacts_.count; ++i) {
-    const int link = contacts_.at[i].link;
-    if (!is_foot(link)) {
-      ++next->other_contacts;
-      continue;
-    }
-    const int foot = link == kFootLink[0] ? 0 : 1;
-    double force_W_N[3], moment_com_W_Nm[3];
-    solver_->contact_load(i, force_W_N, moment_com_W_Nm);
-    const Vec3 arm_W_m = vec(state_.body[link].com_pos_W_m) - sole_point_W_m(state_, foot);
-    const Vec3 moment_W_Nm = vec(moment_com_W_Nm) + cross(arm_W_m, vec(force_W_N));
-    FootWrench &wrench = next->foot[foot];
-    put(vec(wrench.force_W_N) + vec(force_W_N), wrench.force_W_N);
-    put(vec(wrench.moment_W_Nm) + moment_W_Nm, wrench.moment_W_Nm);
-  }
+  return 0;
 }
 
 int Plant::step(const hoap2_plant_inputs_t &inputs) {
@@ -203,15 +229,19 @@ int Plant::step(const hoap2_plant_inputs_t &inputs) {
   use_ode_on_this_thread();
   State next = state_;
   try {
-    solve(inputs, &next);
+    if (solve(inputs, &next) != 0) return 1;
   } catch (const OdeFailure &failure) {
     give_up_world();
-    build();
+    build_world();
     return fail(failure.what());
   }
   const std::string diverged = fault_of_bodies(next);
   if (!diverged.empty()) return fail(diverged);
-  gather_contacts(&next);
+  gather_foot_wrenches(state_, contacts_, *solver_, on_soil() ? soil_load_ : nullptr, &next);
+  if (on_soil()) {
+    soil_.commit(next, next_axes_W_);
+    for (int foot = 0; foot < 2; ++foot) next.sinkage_m[foot] = soil_.mean_sinkage_m(foot);
+  }
   update_cop(&next);
   sensors_measure(&next);
   ++next.tick;

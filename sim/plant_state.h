@@ -14,7 +14,7 @@ namespace hoap2_sim {
 
 constexpr double kTick_s = 1e-3;
 constexpr std::uint64_t kStateMagic = 0x32504c4e54504f48ULL;
-constexpr std::uint32_t kStateVersion = 2;
+constexpr std::uint32_t kStateVersion = 3;
 
 // A link's centre of mass; the axes are the link's.
 struct BodyState {
@@ -61,7 +61,7 @@ struct FootWrench {
 struct State {
   std::uint64_t magic;
   std::uint32_t version;
-  std::uint32_t size;
+  std::uint32_t size;  // of the whole block: this and what follows it (the soil)
   hoap2_plant_params_t params;
   BodyState body[HOAP2_LINKS];
   DriveState drive[HOAP2_JOINTS];
@@ -72,6 +72,7 @@ struct State {
   std::uint64_t noise[4];
   std::int64_t tick;
   std::int64_t other_contacts;
+  double sinkage_m[2];  // mean over each sole
 };
 
 static_assert(std::is_trivially_copyable<State>::value, "the state is saved by memcpy");

@@ -4,6 +4,7 @@
 
 #include "robot/kinematics.h"
 #include "solver/gyroscopic.h"
+#include "soil/soil.h"
 
 namespace hoap2_sim {
 namespace {
@@ -73,6 +74,7 @@ void BodyTree::begin(const TickProblem &problem, const bool touched[HOAP2_LINKS]
   for (int i = 0; i < HOAP2_LINKS; ++i) {
     if (link_[i].carries) carrier_[carriers_++] = i;
     begin_link(problem, i);
+    if (problem.soil != nullptr) add_soil(problem.soil[i], &link_[i]);
     if (i != kPelvis) begin_hinge(problem, i);
   }
 }
@@ -103,6 +105,24 @@ void BodyTree::begin_link(const TickProblem &problem, int i) {
   link.own_momentum.linear = mass_kg * hoap2_sim::eigen(body.com_vel_W_m_s) + kTick_s * force_W_N;
   link.own_momentum.angular = about_com * hoap2_sim::eigen(body.omega_W_rad_s) +
                               kTick_s * hoap2_sim::eigen(torque_W_Nm) + d.cross(link.own_momentum.linear);
+}
+
+// The soil's wrench F0 - Z V+ about the CoM: h Z is added to the inertia, h F0 to the momentum.
+void BodyTree::add_soil(const SoilLoad &soil, Link *link) {
+  if (!soil.touches) return;
+  SpatialInertia impedance;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      impedance.angular(r, c) = kTick_s * soil.angular[r][c];
+      impedance.coupling(r, c) = kTick_s * soil.coupling[r][c];
+      impedance.linear(r, c) = kTick_s * soil.linear[r][c];
+    }
+  }
+  link->own_inertia += impedance.shifted(link->com_arm_W_m);
+  const Vector3 impulse_W_Ns = kTick_s * eigen(soil.force_W_N);
+  link->own_momentum.linear += impulse_W_Ns;
+  link->own_momentum.angular +=
+      kTick_s * eigen(soil.torque_com_W_Nm) + link->com_arm_W_m.cross(impulse_W_Ns);
 }
 
 // The hinge's rows ask for the velocity ERP / h times its error: of the anchors, and of

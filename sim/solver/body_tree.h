@@ -63,6 +63,7 @@ class BodyTree {
   };
 
   void begin_link(const TickProblem &problem, int i);
+  void add_soil(const SoilLoad &soil, Link *link);
   void begin_hinge(const TickProblem &problem, int i);
   void eliminate(Link *link, SpatialInertia *inertia, SpatialVector *momentum);
   void solve_root();

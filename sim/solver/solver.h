@@ -21,11 +21,14 @@ struct LinkLoad {
 };
 
 // A tick's problem without the motor rows. The pointers must outlive finish().
+struct SoilLoad;
+
 struct TickProblem {
   const State *state = nullptr;  // before the tick
   const Mat3 *axes_W = nullptr;  // of each link, from the state's quaternions
   const LinkLoad *load = nullptr;
   const ContactList *contacts = nullptr;
+  const SoilLoad *soil = nullptr;  // of each link, or none
 };
 
 // Contact of a point with the ground as a spring and a damper, solved implicitly:

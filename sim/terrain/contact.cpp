@@ -116,7 +116,7 @@ void Ground::find_contacts(const State &state, const Mat3 axes_W[HOAP2_LINKS], C
   contacts->count = 0;
   const Floor floor(state.params);
   for (int link = 0; link < HOAP2_LINKS; ++link) {
-    touch_floor(state, floor, axes_W[link], link, contacts);
+    if (state.params.ground == HOAP2_GROUND_RIGID) touch_floor(state, floor, axes_W[link], link, contacts);
     for (int block = 0; block < block_count_; ++block)
       touch_block(state, axes_W[link], link, block, contacts);
   }

@@ -33,6 +33,7 @@ void fill_feet(const State &s, hoap2_plant_outputs_t *out) {
   for (int foot = 0; foot < 2; ++foot) {
     put(sole_point_W_m(s, foot), out->true_foot_pos_W_m[foot]);
     out->true_foot_yaw_W_rad[foot] = yaw_rad(link_axes_W(s, kFootLink[foot]));
+    out->true_sinkage_m[foot] = s.sinkage_m[foot];
     std::memcpy(out->true_foot_force_W_N[foot], s.foot[foot].force_W_N, sizeof s.foot[foot].force_W_N);
     std::memcpy(out->true_foot_moment_W_Nm[foot], s.foot[foot].moment_W_Nm, sizeof s.foot[foot].moment_W_Nm);
   }
