@@ -88,7 +88,8 @@ def test_recorded_rows_are_the_plants_inputs(walk: recording.Recording):
     reals, ints = robot.inputs.flat()
     count = reals.size
     assert walk.rows.shape == (WALKS_AFTER, 8 * count + 8 * ((ints.size + 1) // 2))
-    reals[:], ints[:] = walk.rows[-1, : 8 * count].view(np.float64), walk.rows[-1, 8 * count :].view(np.int32)[: ints.size]
+    reals[:] = walk.rows[-1, : 8 * count].view(np.float64)
+    ints[:] = walk.rows[-1, 8 * count :].view(np.int32)[: ints.size]
     np.testing.assert_array_equal(robot.inputs.q_ref_rad, walk.q_ref_rad[-1])
     assert (robot.inputs.drive_mode == recording.POSITION).all()
 

@@ -58,7 +58,8 @@ def test_com(model: mujoco.MjModel, robot: dict, repo_root: Path) -> None:
 
 def test_mass_matrix_and_gravity(model: mujoco.MjModel, robot: dict, repo_root: Path) -> None:
     """Against pinocchio on the URDF; the rotors' inertia is on the diagonal of both."""
-    urdf = pinocchio.buildModelFromUrdf(str(repo_root / "sim" / "model" / "hoap2.urdf"), pinocchio.JointModelFreeFlyer())
+    file = str(repo_root / "sim" / "model" / "hoap2.urdf")
+    urdf = pinocchio.buildModelFromUrdf(file, pinocchio.JointModelFreeFlyer())
     known, data = urdf.createData(), mujoco.MjData(model)
     joints = [urdf.joints[urdf.getJointId(joint["name"])] for joint in robot["joints"]]
     urdf.armature[[joint.idx_v for joint in joints]] = [joint["armature_kgm2"] for joint in robot["joints"]]
@@ -76,8 +77,8 @@ def test_mass_matrix_and_gravity(model: mujoco.MjModel, robot: dict, repo_root: 
         expected = np.triu(expected) + np.triu(expected, 1).T
         np.testing.assert_allclose(full[np.ix_(order, order)], expected[np.ix_(known_order, known_order)], rtol=0,
                                    atol=1e-12)
-        np.testing.assert_allclose(data.qfrc_bias[order], pinocchio.computeGeneralizedGravity(urdf, known, q)[known_order],
-                                   rtol=0, atol=1e-10)
+        gravity = pinocchio.computeGeneralizedGravity(urdf, known, q)
+        np.testing.assert_allclose(data.qfrc_bias[order], gravity[known_order], rtol=0, atol=1e-10)
 
 
 def test_inverse_weights_of_the_generator(model: mujoco.MjModel, robot: dict) -> None:

@@ -1,8 +1,8 @@
 """`bench run`: a whole run of floor-walk, and where the time of its ticks goes.
 
 Real-time factor, wall clock, memory and the durations in the loop are those of an ordinary run in a process of its own.
-A second walk tells how much of the FMUs' steps is FMI: in it the FMUs and the bare libraries go side by side through the
-same ticks, so that a difference between them is not one of another load. All of it is on one core.
+A second walk tells how much of the FMUs' steps is FMI: in it the FMUs and the bare libraries go side by side through
+the same ticks, so that a difference between them is not one of another load. All of it is on one core.
 """
 
 from __future__ import annotations
@@ -144,8 +144,8 @@ def whole_run(fmi: int, duration_s: float | None) -> dict:
     """An ordinary run without video in a process of its own, which inherits the one core."""
     with tempfile.TemporaryDirectory(prefix="hoap2-bench-") as folder:
         out, noted = Path(folder) / "run", Path(folder) / "loop.json"
-        command = [sys.executable, "-m", "hoap2.bench.child", str(noted), "run", SCENARIO, "--no-video", "--fmi", str(fmi), "--json",
-                   "--out", str(out), *([] if duration_s is None else ["--duration", str(duration_s)])]
+        command = [sys.executable, "-m", "hoap2.bench.child", str(noted), "run", SCENARIO, "--no-video", "--json",
+                   "--fmi", str(fmi), "--out", str(out), *([] if duration_s is None else ["--duration", str(duration_s)])]
         begin = time.monotonic()
         with open(Path(folder) / "stdout", "w+b") as output:
             child = subprocess.Popen(command, stdout=output, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)

@@ -138,7 +138,8 @@ def run(seconds: float, repeat: int, progress: Callable[[str], None]) -> tuple[d
             done.append(cases)
         about = measure.machine(core)
     runs = [summarise(cases) for cases in done]
-    document = {"machine": about, "mujoco": {"version": mujoco.__version__, "model": str(simulators.MODEL.relative_to(paths.ROOT))},
+    model = str(simulators.MODEL.relative_to(paths.ROOT))
+    document = {"machine": about, "mujoco": {"version": mujoco.__version__, "model": model},
                 "settings": {"seconds": seconds, "ticks": recording.ticks, "repeat": repeat, "chunk_ticks": CHUNK,
                              "warm_up_ticks": WARM_UP, "ticks_walking": int(recording.walking.sum()),
                              "clock_us": simulators.clock_us()},

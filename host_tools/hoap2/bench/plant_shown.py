@@ -19,9 +19,9 @@ NAMES = {
 COLOURS = {"articulated": "#c8102e", "dworldstep": "#7a6a5a"}  # MuJoCo's are blue
 BOUNDS = {"dworldstep": 0.1, "mujoco_implicitfast": 0.7}  # what the articulated solver is to keep, on the floor
 REMARKS = (
-    "a step of the plant: drives with torque limits, contacts, solver, foot wrenches, sensors, checks of input and state",
+    "a step of the plant: drives with torque limits, contacts, solver, foot wrenches, sensors, checks of input, state",
     "a step of MuJoCo: controls copied, drives with torque limits, collision, solver (Newton, warm start); no sensors",
-    "elliptic cone, no joint Coulomb: implicitfast; the latter is another robot, without 25 of MuJoCo's constraint rows",
+    "elliptic cone, no joint Coulomb: implicitfast; the latter is another robot, 25 of MuJoCo's constraint rows less",
 )
 
 
@@ -34,19 +34,21 @@ def show(document: dict, picture: Path) -> None:
     console.print()
     for line in REMARKS:
         console.print(f"  {line}")
-    console.print(f"  not in it: filling the plant's output struct, {robots['articulated']['floor']['outputs_us']:.1f} us")
-    mujoco = robots["mujoco_implicitfast"]["floor"]
-    console.print(f"  MuJoCo {document['mujoco']['version']} {_stance(robots)}, {mujoco['contacts_mean']:.1f} contacts, "
-                  f"CoM within {1e3 * mujoco['com_off_dworldstep_max_m']:.1f} mm of dWorldStep's "
-                  f"({1e3 * robots['mujoco_implicitfast_elliptic']['floor']['com_off_dworldstep_max_m']:.1f} mm elliptic)")
+    on_floor = {name: seen["floor"] for name, seen in robots.items()}
+    console.print(f"  not in it: filling the plant's output struct, {on_floor['articulated']['outputs_us']:.1f} us")
+    off_mm = {name: 1e3 * seen["com_off_dworldstep_max_m"] for name, seen in on_floor.items()}
+    console.print(f"  MuJoCo {document['mujoco']['version']} {_stance(on_floor)}, "
+                  f"{on_floor['mujoco_implicitfast']['contacts_mean']:.1f} contacts, CoM within "
+                  f"{off_mm['mujoco_implicitfast']:.1f} mm of dWorldStep's "
+                  f"({off_mm['mujoco_implicitfast_elliptic']:.1f} mm elliptic)")
     pinned = "" if machine["pinned_to_core"] is None else f", all on core {machine['pinned_to_core']}"
     console.print(f"  {settings['repeat']} x {settings['seconds']:g} s, {settings['chunk_ticks']} ticks each in turn; "
                   f"{machine['processor']}, {machine['cores']} cores{pinned}, load {machine['load']:.1f}")
     console.print(f"  {picture}")
 
 
-def _stance(robots: dict) -> str:
-    fallen = [NAMES[name] for name, seen in robots.items() if not seen["floor"]["stays_upright"]]
+def _stance(on_floor: dict) -> str:
+    fallen = [NAMES[name] for name, seen in on_floor.items() if not seen["stays_upright"]]
     return f"[bold red]has fallen ({', '.join(fallen)})[/]" if fallen else "stays on its feet"
 
 
@@ -87,8 +89,8 @@ def draw(document: dict, runs: list[dict[str, Case]], path: Path) -> None:
     axes[0].set_yticks(np.arange(len(NAMES)) + 0.1, list(reversed(NAMES.values())))
     axes[0].set_ylim(-0.15, len(NAMES))
     machine = document["machine"]
-    figure.suptitle(f"HOAP-2, 31 degrees of freedom: duration of a step, and its median. {machine['processor']}, MuJoCo "
-                    f"{document['mujoco']['version']}", x=0.01, ha="left", fontsize=11)
+    figure.suptitle(f"HOAP-2, 31 degrees of freedom: duration of a step, and its median. {machine['processor']}, "
+                    f"MuJoCo {document['mujoco']['version']}", x=0.01, ha="left", fontsize=11)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=130)
     pyplot.close(figure)

@@ -18,7 +18,7 @@ HEADER = """\
 <!-- Generated from firmware/hoap2.json by ./hoap2 generate: do not edit.
 
   HOAP-2 as this project's plant has it: tree, masses, inertias, rotor inertias, stops, drives, joint friction, soles.
-  SI units. In the zero posture the legs are straight and the arms stretched forward. MuJoCo 3.0 or newer.
+  SI units. In the zero posture the legs are straight and the arms stretched forward. Checked with MuJoCo 4.0.0.
 
   Drives. ctrl[i] is the position reference (rad) of joint i in the order of hoap2.json:
       torque = kp (ctrl - q) - kd qd, clipped at the peak torque
@@ -33,8 +33,8 @@ HEADER = """\
   which solref (direct format) and solimp (constant impedance) set here for the option cone="pyramidal": its four edges
   have 4 R each, so the sum that carries the sole is the plant's. Along the ground MuJoCo yields more than the plant:
   a corner that sticks creeps by 2 h R / mu^2 = {creep:.2g} m/s a newton, the plant's by 1e-6 m/s. With cone="elliptic",
-  impratio="{impratio}", solref="{elliptic_k} {elliptic_b}" and solimp="{elliptic} {elliptic} 1" the normal direction is the
-  plant's as well, and a corner creeps by {elliptic_creep:.2g} m/s a newton.
+  impratio="{impratio}", solref="{elliptic_k} {elliptic_b}" and solimp="{elliptic} {elliptic} 1" the normal direction is
+  the plant's as well, and a corner creeps by {elliptic_creep:.2g} m/s a newton.
   Joint friction (viscous below {rate:g} rad/s) and the stops are matched in the same way.
   All this holds at the time step below, with any integrator but discrete. -->
 """
@@ -69,9 +69,10 @@ def sole_softness(table: Table, link: str, elliptic: bool = False) -> tuple[str,
     """solref and solimp of a sole's geom."""
     mu = _default(table, "friction_mu")[0]
     weight = rigid.ZeroPosture(table.robot).link_inverse_weight(link)
-    # an edge of the pyramid has R = (1 - imp) / imp * 2 mu^2 * (1 + mu^2) weight, and four of them share the normal force
+    # an edge of the pyramid has R = (1 - imp) / imp * 2 mu^2 * (1 + mu^2) weight; four of them share the normal force
     diagonal = weight if elliptic else 2.0 * mu * mu * (1.0 + mu * mu) * weight / 4.0
-    return _soft(contact_regulariser(table), _default(table, "contact_stiffness_N_m")[0], table.tick_us * 1e-6, diagonal)
+    stiffness = _default(table, "contact_stiffness_N_m")[0]
+    return _soft(contact_regulariser(table), stiffness, table.tick_us * 1e-6, diagonal)
 
 
 class _Writer:
