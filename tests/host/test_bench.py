@@ -41,6 +41,10 @@ def test_the_idlest_core_is_one_of_those_allowed():
     assert measure.idlest({10**6}, 0.01) == 10**6  # not told of: the last one allowed
 
 
+def test_a_busy_machine_is_told():
+    assert "busy" in measure.busy({"load": 2.5, "cores": 2}) and measure.busy({"load": 0.3, "cores": 2}) == ""
+
+
 # bench run
 
 

@@ -179,10 +179,10 @@ def run(repeat: int, fmi: int, duration_s: float | None, progress: Callable[[str
     """All repetitions; the figures are their medians."""
     runs = []
     with measure.one_core() as core:
+        about = measure.machine(core)
         for number in range(repeat):
             progress(f"run {number + 1} of {repeat}")
             runs.append(once(fmi, duration_s))
-        about = measure.machine(core)
     middle = measure.medians(runs)
     # medians of parts do not add up by themselves
     middle["split"]["rest"] += middle["tick_us"] - sum(middle["split"].values())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from hoap2.bench import measure
+
 PARTS = {
     "controller": "controller",
     "plant": "plant",
@@ -37,3 +39,5 @@ def show(document: dict) -> None:
     pinned = "" if machine["pinned_to_core"] is None else f", all on core {machine['pinned_to_core']}"
     console.print(f"  median of {len(document['runs'])}; {machine['processor']}, {machine['cores']} cores{pinned}, "
                   f"load {machine['load']:.1f}, FMI {document['fmi']:g}")
+    if text := measure.busy(machine):
+        console.print(f"  [yellow]{text}[/]: the run is slower than it need be")

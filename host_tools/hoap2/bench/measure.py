@@ -76,6 +76,13 @@ def idlest(cores: set[int], watch_s: float = 0.2) -> int:
     return min(spent, key=lambda core: (spent[core], -core)) if spent else max(cores)
 
 
+def busy(machine: dict) -> str:
+    """A warning when other processes took more than a little of the machine before the measurement, else empty."""
+    if machine["load"] < 0.75 * machine["cores"]:
+        return ""
+    return f"the machine was busy before (load {machine['load']:.1f} on {machine['cores']} cores)"
+
+
 @contextlib.contextmanager
 def one_core() -> Iterator[int | None]:
     """Keep this thread and its children on the idlest core, and the garbage collector away; gives its number.

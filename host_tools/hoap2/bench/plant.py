@@ -130,13 +130,13 @@ def run(seconds: float, repeat: int, progress: Callable[[str], None]) -> tuple[d
     recording = record(round(seconds / tick_s))
     done = []
     with measure.one_core() as core:
+        about = measure.machine(core)
         for number in range(repeat):
             cases = {}
             for case in CASES:
                 progress(f"{case}, {number + 1} of {repeat}")
                 cases[case] = measure_case(recording, air=case == "air")
             done.append(cases)
-        about = measure.machine(core)
     runs = [summarise(cases) for cases in done]
     model = str(simulators.MODEL.relative_to(paths.ROOT))
     document = {"machine": about, "mujoco": {"version": mujoco.__version__, "model": model},
