@@ -7,7 +7,7 @@
 #include "../product.h"
 #include "hoap2_plant/generated/plant_signals.h"
 
-#define HOAP2_FMU_TOKEN "{33237ded-c027-871b-fae9-6a17c69bfca9}"
+#define HOAP2_FMU_TOKEN "{81fb31ac-8e89-9076-6233-f466bd379b06}"
 enum { HOAP2_FMU_FIELDS = 84, HOAP2_FMU_ELEMENTS = 598 };
 
 /* name, group, kind, tunable, FMI 2 value reference of the first element, elements, offset, range */
