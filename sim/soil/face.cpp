@@ -54,6 +54,8 @@ std::vector<Face> list_faces(const hoap2_plant_params_t &params) {
   int patches = 0;
   for (Face &face : faces) {
     face.first_patch = patches;
+    face.per_patch_a_m = 0.5 * face.patches_a / face.half_a_m;
+    face.per_patch_b_m = 0.5 * face.patches_b / face.half_b_m;
     patches += face.patches();
   }
   return faces;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "geometry.h"
@@ -23,11 +24,12 @@ struct Face {
   double half_a_m = 0.0, half_b_m = 0.0;
   int patches_a = 1, patches_b = 1;
   int first_patch = 0;
+  double per_patch_a_m = 0.0, per_patch_b_m = 0.0;  // 1 / size of a patch
 
   int patches() const { return patches_a * patches_b; }
   int patch_at(double u_m, double v_m) const {
-    const int i = static_cast<int>((u_m + half_a_m) * (0.5 * patches_a / half_a_m));
-    const int j = static_cast<int>((v_m + half_b_m) * (0.5 * patches_b / half_b_m));
+    const int i = static_cast<int>((u_m + half_a_m) * per_patch_a_m);
+    const int j = static_cast<int>((v_m + half_b_m) * per_patch_b_m);
     return std::min(i, patches_a - 1) * patches_b + std::min(j, patches_b - 1);
   }
   double patch_u_m(int patch) const { return half_a_m * ((2 * (patch / patches_b) + 1.0) / patches_a - 1.0); }
@@ -69,6 +71,17 @@ inline double slope_share(const FacePose &pose) {
   return std::min(1.0, std::max(0.0, (pose.m.z - kSteepest) / (kFull - kSteepest)));
 }
 
+// Columns and rows of cells, inclusive; empty while x0 > x1 or y0 > y1.
+struct Window {
+  std::int32_t x0 = 0, y0 = 0, x1 = -1, y1 = -1;
+
+  bool empty() const { return x0 > x1 || y0 > y1; }
+  void cover(int ax, int ay, int bx, int by) {
+    *this = empty() ? Window{ax, ay, bx, by}
+                    : Window{std::min(x0, ax), std::min(y0, ay), std::max(x1, bx), std::max(y1, by)};
+  }
+};
+
 // Part of a cell under a face: (u, v) is the middle of that part in the face.
 struct CellPart {
   std::size_t index;
@@ -85,12 +98,8 @@ class CellsUnder {
   CellsUnder(const HeightField &field, const Face &face, const FacePose &pose, double margin_m = 0.0);
   template <class Visit>
   void each(Visit &&visit) const;
-  bool any() const { return first_y_ <= last_y_ && first_x_ <= last_x_; }
-  // Cells that can be under the face: columns and rows, inclusive.
-  int first_x() const { return first_x_; }
-  int last_x() const { return last_x_; }
-  int first_y() const { return first_y_; }
-  int last_y() const { return last_y_; }
+  // Cells that can be under the face.
+  Window window() const { return {first_x_, first_y_, last_x_, last_y_}; }
 
  private:
   // A centre exactly on the edge counts as inside, whatever the last digit says.
@@ -125,6 +134,7 @@ template <class Visit>
 void CellsUnder::each(Visit &&visit) const {
   const double cell_m = field_.cell_m();
   const double per_a = 1.0 / step_a_, per_b = 1.0 / step_b_;
+  const double inner_a = half_a_ - step_a_, inner_b = half_b_ - step_b_;
   const double x0_m = field_.centre_x_m(0) - centre_.x;
   for (int iy = first_y_; iy <= last_y_; ++iy) {
     const double y_m = field_.centre_y_m(iy) - centre_.y;
@@ -139,10 +149,15 @@ void CellsUnder::each(Visit &&visit) const {
     for (int ix = first; ix <= last; ++ix) {
       const double x_m = x0_m + ix * cell_m;
       const double u = u0 + u_x_ * x_m, v = v0 + v_x_ * x_m;
-      const double ahead = edge(half_a_ - u, per_a), behind = edge(half_a_ + u, per_a);
-      const double left = edge(half_b_ - v, per_b), right = edge(half_b_ + v, per_b);
-      visit(CellPart{row + static_cast<std::size_t>(ix), u + 0.5 * step_a_ * (ahead - behind),
-                     v + 0.5 * step_b_ * (left - right), (ahead + behind - 1.0) * (left + right - 1.0)});
+      CellPart part = {row + static_cast<std::size_t>(ix), u, v, 1.0};
+      if (std::fabs(u) > inner_a || std::fabs(v) > inner_b) {
+        const double ahead = edge(half_a_ - u, per_a), behind = edge(half_a_ + u, per_a);
+        const double left = edge(half_b_ - v, per_b), right = edge(half_b_ + v, per_b);
+        part.u_m += 0.5 * step_a_ * (ahead - behind);
+        part.v_m += 0.5 * step_b_ * (left - right);
+        part.cells = (ahead + behind - 1.0) * (left + right - 1.0);
+      }
+      visit(part);
     }
   }
 }

@@ -41,6 +41,7 @@ class FaceLoad {
   }
 
   bool any() const { return slope_ > 0.0 || force_ > 0.0; }
+  bool presses() const { return force_ > 0.0; }
 
   // Wrench and slope about the link's CoM, world axes.
   void find(const Face &face, const Mat3 &link_axes_W, SpatialVector *wrench_W,

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "hoap2/generated/robot_model.h"
-#include "plant_state.h"
 #include "soil/rft.h"
 
 namespace hoap2_sim {
@@ -51,63 +50,17 @@ double PressureLaw::approach(const Cell &cell, double reach_m, double down_m_s, 
   return (end_Pa + damping_Pas_m_ * reach_m / kTick_s) / down_m_s;
 }
 
-Response PressureLaw::respond(const Cell &cell, double depth_m, double down_m_s, double share) const {
-  const double elastic_Pa = cell.pressure_Pa - cell.stiffness_Pa_m * (cell.memory_m - depth_m);
-  const double step_m = kTick_s * down_m_s;
-  if (elastic_Pa <= 0.0) {
-    if (elastic_Pa + cell.stiffness_Pa_m * step_m <= 0.0) return {};
-    return {0.0, approach(cell, step_m + elastic_Pa / cell.stiffness_Pa_m, down_m_s, share)};
+Cell PressureLaw::pressed(Cell cell, double depth_m, double share) const {
+  const double elastic = elastic_Pa(cell, depth_m), limit_Pa = virgin_Pa(depth_m, share);
+  if (depth_m > cell.memory_m) {
+    cell.memory_m = depth_m;
+    // With a limit that moves with the direction of motion the way there can be elastic.
+    cell.pressure_Pa = depends_on_direction_ ? std::min(elastic, limit_Pa) : limit_Pa;
+    cell.stiffness_Pa_m = stiffness_Pa_m(depth_m);
+  } else if (elastic > limit_Pa) {
+    cell.pressure_Pa -= elastic - limit_Pa;
   }
-  Response answer;
-  answer.pressure_Pa = elastic_Pa;
-  if (depends_on_direction_) {
-    answer.pressure_Pa = std::min(elastic_Pa, virgin_Pa(depth_m, share));
-  } else if (depth_m > cell.memory_m) {
-    answer.pressure_Pa = virgin_Pa(depth_m);
-  }
-  if (down_m_s > 0.0) {
-    const double room_m = cell.memory_m - depth_m;
-    if (step_m <= room_m) {
-      answer.resistance_Pas_m = kTick_s * cell.stiffness_Pa_m + damping_Pas_m_;
-      return answer;
-    }
-    const double tangent_Pa_m =
-        depends_on_direction_ ? share * modulus_ : exponent_ * answer.pressure_Pa / depth_m;
-    double slope_Pas_m = kTick_s * tangent_Pa_m;
-    if (room_m > 0.0) slope_Pas_m += (cell.stiffness_Pa_m - tangent_Pa_m) * room_m / down_m_s;
-    answer.resistance_Pas_m = slope_Pas_m + damping_Pas_m_;
-    return answer;
-  }
-  // On the way up the ground does not pull: first the damping goes, then the slope is
-  // what brings the pressure to zero within the tick.
-  const double slope_Pas_m = kTick_s * cell.stiffness_Pa_m;
-  answer.resistance_Pas_m = slope_Pas_m + damping_Pas_m_;
-  if (-answer.resistance_Pas_m * down_m_s > answer.pressure_Pa) {
-    answer.resistance_Pas_m = std::min(slope_Pas_m, -answer.pressure_Pa / down_m_s);
-  }
-  return answer;
-}
-
-bool PressureLaw::press(Cell *cell, double depth_m, double share) const {
-  if (!depends_on_direction_) {
-    if (!(depth_m > cell->memory_m)) return false;
-    cell->memory_m = depth_m;
-    cell->pressure_Pa = virgin_Pa(depth_m);
-    cell->stiffness_Pa_m = stiffness_Pa_m(depth_m);
-    return true;
-  }
-  // An elastic column whose limit moves with the direction of motion.
-  const double elastic_Pa = cell->pressure_Pa - cell->stiffness_Pa_m * (cell->memory_m - depth_m);
-  const double limit_Pa = virgin_Pa(depth_m, share);
-  if (depth_m > cell->memory_m) {
-    cell->memory_m = depth_m;
-    cell->pressure_Pa = std::min(elastic_Pa, limit_Pa);
-    cell->stiffness_Pa_m = stiffness_Pa_m(depth_m);
-    return true;
-  }
-  if (elastic_Pa <= limit_Pa || elastic_Pa <= 0.0) return false;
-  cell->pressure_Pa -= elastic_Pa - limit_Pa;
-  return true;
+  return cell;
 }
 
 void PressureLaw::lay(Cell *cell, double height_m) const {

@@ -3,7 +3,10 @@
 #ifndef HOAP2_SIM_SOIL_PRESSURE_LAW_H
 #define HOAP2_SIM_SOIL_PRESSURE_LAW_H
 
+#include <algorithm>
+
 #include "hoap2_plant/plant.h"
+#include "plant_state.h"
 #include "soil/height_field.h"
 #include "soil/power.h"
 
@@ -27,14 +30,36 @@ class PressureLaw {
   double stiffness_Pa_m(double memory_m) const;
   bool depends_on_direction() const { return depends_on_direction_; }
 
-  // A tick that starts at this depth with this downward velocity.
-  Response respond(const Cell &cell, double depth_m, double down_m_s, double share) const;
-  // The column after it was held at this depth; true if it changed.
-  bool press(Cell *cell, double depth_m, double share) const;
+  // Pressure if the column only unloads and reloads; 0 and less: not touched.
+  static double elastic_Pa(const Cell &cell, double depth_m) {
+    return cell.pressure_Pa - cell.stiffness_Pa_m * (cell.memory_m - depth_m);
+  }
+  // Whether the column gives way for good at this depth.
+  bool yields(const Cell &cell, double depth_m, double share) const {
+    if (!depends_on_direction_) return depth_m > cell.memory_m;
+    const double elastic = elastic_Pa(cell, depth_m);
+    return elastic > 0.0 && (depth_m > cell.memory_m || elastic > virgin_Pa(depth_m, share));
+  }
+  // The column after it was held at a depth at which it yields.
+  Cell pressed(Cell cell, double depth_m, double share) const;
+
+  // A tick that starts at this depth with this downward velocity, on a column that
+  // does not yield there any more.
+  Response respond(const Cell &cell, double depth_m, double down_m_s, double share) const {
+    const double elastic = elastic_Pa(cell, depth_m), step_m = kTick_s * down_m_s;
+    if (elastic > 0.0) return hold(cell, depth_m, elastic, down_m_s, share);
+    if (elastic + cell.stiffness_Pa_m * step_m <= 0.0) return {};
+    return {0.0, approach(cell, step_m + elastic / cell.stiffness_Pa_m, down_m_s, share)};
+  }
+
   // Loose soil laid on the column, or taken from it (negative); its surface moves by exactly that.
   void lay(Cell *cell, double height_m) const;
 
  private:
+  // Of a limit that the pressure was brought to: rounding must not hide that.
+  static constexpr double kAtYield = 1.0 - 1e-9;
+
+  Response hold(const Cell &cell, double depth_m, double elastic, double down_m_s, double share) const;
   double approach(const Cell &cell, double reach_m, double down_m_s, double share) const;
 
   double modulus_ = 0.0, exponent_ = 1.0;
@@ -42,6 +67,25 @@ class PressureLaw {
   bool depends_on_direction_ = false;
   Power power_;
 };
+
+inline Response PressureLaw::hold(const Cell &cell, double depth_m, double elastic, double down_m_s,
+                                  double share) const {
+  const double stiff_Pas_m = kTick_s * cell.stiffness_Pa_m;
+  if (down_m_s <= 0.0) {
+    // The ground does not pull: first the damping goes, then the slope is what brings the
+    // pressure to zero within the tick.
+    if (-(stiff_Pas_m + damping_Pas_m_) * down_m_s <= elastic) return {elastic, stiff_Pas_m + damping_Pas_m_};
+    return {elastic, std::min(stiff_Pas_m, -elastic / down_m_s)};
+  }
+  const bool at_yield = depends_on_direction_ && elastic >= kAtYield * virgin_Pa(depth_m, share);
+  const double room_m = at_yield ? 0.0 : cell.memory_m - depth_m;
+  if (kTick_s * down_m_s <= room_m) return {elastic, stiff_Pas_m + damping_Pas_m_};
+  // Elastic until the remembered depth, then along the virgin curve.
+  const double tangent_Pa_m = depends_on_direction_ ? share * modulus_ : exponent_ * elastic / depth_m;
+  double slope_Pas_m = kTick_s * tangent_Pa_m;
+  if (room_m > 0.0) slope_Pas_m += (cell.stiffness_Pa_m - tangent_Pa_m) * room_m / down_m_s;
+  return {elastic, slope_Pas_m + damping_Pas_m_};
+}
 
 }  // namespace hoap2_sim
 #endif

@@ -1,0 +1,123 @@
+// The soil's mutable block: saved and restored.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "soil/soil.h"
+
+namespace hoap2_sim {
+namespace {
+
+constexpr std::uint64_t kSoilMagic = 0x314c494f5350414fULL;
+constexpr double kForceLimit_N = 1e9;
+constexpr double kPressureLimit_Pa = 1e15;
+constexpr double kHighest_m = 20.0;
+constexpr double kMostVolume_m3 = 1e4, kTinyVolume_m3 = 1e-9;
+
+struct SoilHead {
+  std::uint64_t magic;
+  std::uint64_t size;
+  std::int64_t tick;
+  double sinkage_m[2];
+};
+
+struct SavedCell {
+  double level_m, memory_m, pressure_Pa;
+};
+
+template <class T>
+void put(const T &value, unsigned char **to) {
+  std::memcpy(*to, &value, sizeof value);
+  *to += sizeof value;
+}
+
+template <class T>
+T take(const unsigned char **from) {
+  T value;
+  std::memcpy(&value, *from, sizeof value);
+  *from += sizeof value;
+  return value;
+}
+
+// Written so that NaN fails.
+bool is_within(double value, double low, double high) { return value >= low && value <= high; }
+
+}  // namespace
+
+std::size_t Soil::state_bytes() const {
+  return sizeof(SoilHead) + field_.size() * sizeof(SavedCell) + shear_.size() * sizeof(PatchShear) +
+         faces_.size() * sizeof(Flow::Memory);
+}
+
+void Soil::save(void *to) const {
+  auto *bytes = static_cast<unsigned char *>(to);
+  put(SoilHead{kSoilMagic, state_bytes(), tick_, {sinkage_m_[0], sinkage_m_[1]}}, &bytes);
+  for (std::size_t i = 0; i < field_.size(); ++i) {
+    const Cell &cell = field_.cell(i);
+    put(SavedCell{cell.level_m, cell.memory_m, cell.pressure_Pa}, &bytes);
+  }
+  for (const PatchShear &shear : shear_) put(shear, &bytes);
+  for (const Flow::Memory &memory : flow_.memory()) put(memory, &bytes);
+}
+
+// Nothing of the block is believed before all of it was looked at: it may come from a file.
+std::string Soil::fault_of_block(const void *from) const {
+  const auto *bytes = static_cast<const unsigned char *>(from);
+  const auto head = take<SoilHead>(&bytes);
+  if (head.magic != kSoilMagic || head.size != state_bytes())
+    return "the block is not the state of this soil";
+  bool is_good = head.tick >= 0;
+  const double deepest_m = field_.depth_m() + kHighest_m;
+  for (const double sinkage_m : head.sinkage_m) is_good &= is_within(sinkage_m, -kHighest_m, deepest_m);
+  for (std::size_t i = 0; i < field_.size(); ++i) {
+    const auto cell = take<SavedCell>(&bytes);
+    is_good &= is_within(cell.level_m, -field_.depth_m(), kHighest_m) &&
+               is_within(cell.memory_m, 0.0, deepest_m) &&
+               is_within(cell.pressure_Pa, 0.0, kPressureLimit_Pa);
+  }
+  for (std::size_t i = 0; i < shear_.size(); ++i) {
+    const auto shear = take<PatchShear>(&bytes);
+    is_good &= is_within(shear.peak_N, 0.0, kForceLimit_N) &&
+               is_within(shear.force_a_N, -kForceLimit_N, kForceLimit_N) &&
+               is_within(shear.force_b_N, -kForceLimit_N, kForceLimit_N);
+  }
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    const auto memory = take<Flow::Memory>(&bytes);
+    const Window &moving = memory.moving;
+    is_good &= is_within(memory.pending_m3, -kTinyVolume_m3, kMostVolume_m3);
+    if (!moving.empty()) {
+      is_good &= moving.x0 >= 0 && moving.y0 >= 0 && moving.x1 < field_.nx() && moving.y1 < field_.ny();
+    }
+  }
+  return is_good ? "" : "the state of the soil is damaged: it holds values that cannot be";
+}
+
+std::string Soil::restore(const void *from) {
+  const std::string fault = fault_of_block(from);
+  if (!fault.empty()) return fault;
+  const auto *bytes = static_cast<const unsigned char *>(from);
+  const auto head = take<SoilHead>(&bytes);
+  tick_ = head.tick;
+  std::copy(head.sinkage_m, head.sinkage_m + 2, sinkage_m_);
+  for (std::size_t i = 0; i < field_.size(); ++i) {
+    const auto cell = take<SavedCell>(&bytes);
+    field_.cell(i) = {cell.level_m, cell.memory_m, cell.pressure_Pa, pressure_.stiffness_Pa_m(cell.memory_m)};
+  }
+  for (PatchShear &shear : shear_) shear = take<PatchShear>(&bytes);
+  for (Flow::Memory &memory : flow_.memory()) memory = take<Flow::Memory>(&bytes);
+  std::fill(face_tick_.begin(), face_tick_.end(), FaceTick{});
+  pressed_.clear();
+  field_.find_top();
+  find_sheared();
+  return "";
+}
+
+void Soil::find_sheared() {
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    const auto first = shear_.begin() + faces_[i].first_patch;
+    is_sheared_[i] = std::any_of(first, first + faces_[i].patches(),
+                                 [](const PatchShear &shear) { return shear.peak_N > 0.0; });
+  }
+}
+
+}  // namespace hoap2_sim
