@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <string>
 
 #include "geometry.h"
 #include "hoap2_plant/plant.h"
@@ -16,12 +17,16 @@ namespace hoap2_sim {
 
 constexpr double kMg_N = HOAP2_TOTAL_MASS_KG * 9.81;
 
+// Solver of the rigs that a test makes; WithEachSolver changes it.
+inline std::int32_t solver_of_rigs = HOAP2_SOLVER_ARTICULATED;
+
 class Rig {
  public:
   Rig() : plant_(hoap2_plant_create()) {
     hoap2_plant_params_defaults(&params);
     hoap2_plant_inputs_defaults(&inputs);
     params.sensor_preset = 0;
+    params.solver = solver_of_rigs;
   }
   ~Rig() { hoap2_plant_destroy(plant_); }
   Rig(const Rig &) = delete;
@@ -70,6 +75,18 @@ class Rig {
  private:
   hoap2_plant_t *plant_;
 };
+
+// Base of tests that must hold with either solver (INSTANTIATE_WITH_EACH_SOLVER below the tests).
+class WithEachSolver : public ::testing::TestWithParam<std::int32_t> {
+ protected:
+  WithEachSolver() { solver_of_rigs = GetParam(); }
+  ~WithEachSolver() override { solver_of_rigs = HOAP2_SOLVER_ARTICULATED; }
+};
+#define INSTANTIATE_WITH_EACH_SOLVER(suite)                                                                \
+  INSTANTIATE_TEST_SUITE_P(Solver, suite, ::testing::Values(HOAP2_SOLVER_ARTICULATED, HOAP2_SOLVER_ODE),   \
+                           [](const ::testing::TestParamInfo<std::int32_t> &tested) {                      \
+                             return std::string(tested.param == HOAP2_SOLVER_ODE ? "Ode" : "Articulated"); \
+                           })
 
 struct Momentum {
   Vec3 linear_W_Ns, angular_com_W_Nms;

@@ -16,7 +16,9 @@ double hand_inertia_kgm2() {
   return HOAP2_JOINT[kHand].armature_kgm2 + hand.inertia_C_kgm2[2] + hand.mass_kg * r2;
 }
 
-TEST(Drive, StepResponseIsTheImplicitSecondOrderRecursion) {
+class Drives : public WithEachSolver {};  // LongDrives: with the default solver alone
+
+TEST_P(Drives, StepResponseIsTheImplicitSecondOrderRecursion) {
   Rig rig;
   rig.float_free();
   rig.start();
@@ -35,7 +37,7 @@ TEST(Drive, StepResponseIsTheImplicitSecondOrderRecursion) {
   EXPECT_NEAR(r, rig.out().true_q_rad[kHand], 1e-5);
 }
 
-TEST(Drive, SoftServoFollowsTheAnalyticOscillator) {
+TEST_P(Drives, SoftServoFollowsTheAnalyticOscillator) {
   Rig rig;
   rig.float_free();
   rig.start();
@@ -53,7 +55,7 @@ TEST(Drive, SoftServoFollowsTheAnalyticOscillator) {
   }
 }
 
-TEST(Drive, TorqueModeAcceleratesRotorAndLink) {
+TEST_P(Drives, TorqueModeAcceleratesRotorAndLink) {
   Rig rig;
   rig.float_free();
   rig.start();
@@ -64,7 +66,7 @@ TEST(Drive, TorqueModeAcceleratesRotorAndLink) {
   EXPECT_NEAR(0.01, rig.out().true_tau_Nm[kHand], 1e-12);
 }
 
-TEST(Drive, DampedTorqueSettlesAtTorqueOverDamping) {
+TEST_P(Drives, DampedTorqueSettlesAtTorqueOverDamping) {
   Rig rig;
   rig.float_free();
   rig.start();
@@ -75,7 +77,7 @@ TEST(Drive, DampedTorqueSettlesAtTorqueOverDamping) {
   EXPECT_NEAR(0.4, rig.out().true_qd_rad_s[kHand], 2e-3);
 }
 
-TEST(Drive, OffGivesNoTorque) {
+TEST_P(Drives, OffGivesNoTorque) {
   Rig rig;
   rig.start();
   rig.mode_of_all(kDriveOff);
@@ -84,7 +86,7 @@ TEST(Drive, OffGivesNoTorque) {
 }
 
 // Arms stretched forward: the elbow carries forearm and hand, weighed by hand.
-TEST(Drive, HoldsTheArmWithTheTorqueOfStatics) {
+TEST_P(Drives, HoldsTheArmWithTheTorqueOfStatics) {
   Rig rig;
   rig.posture({});
   rig.params.joint_friction_scale = 0.0;
@@ -102,7 +104,7 @@ TEST(Drive, HoldsTheArmWithTheTorqueOfStatics) {
   EXPECT_NEAR(-moment_Nm / rig.inputs.kp_Nm_rad[HOAP2_J_R_ELBOW], error_rad, 1e-3 * std::fabs(error_rad));
 }
 
-TEST(Drive, TorqueNeverExceedsThePeak) {
+TEST_P(Drives, TorqueNeverExceedsThePeak) {
   Rig rig;
   rig.params.start_height_m = 0.15;  // a hard landing under saturating commands
   rig.start();
@@ -122,7 +124,7 @@ TEST(Drive, TorqueNeverExceedsThePeak) {
   EXPECT_TRUE(reached) << "the commands must reach the limit for this to mean anything";
 }
 
-TEST(Drive, AccelerationAtThePeakIsPeakOverInertia) {
+TEST_P(Drives, AccelerationAtThePeakIsPeakOverInertia) {
   Rig rig;
   rig.float_free();
   rig.start();
@@ -132,7 +134,7 @@ TEST(Drive, AccelerationAtThePeakIsPeakOverInertia) {
               0.01);
 }
 
-TEST(Drive, PositionLoopKeepsTheVelocityLimit) {
+TEST_P(Drives, PositionLoopKeepsTheVelocityLimit) {
   Rig rig;
   rig.float_free();
   rig.start();
@@ -148,7 +150,7 @@ TEST(Drive, PositionLoopKeepsTheVelocityLimit) {
   EXPECT_NEAR(rig.inputs.q_ref_rad[j], rig.out().true_q_rad[j], 2e-3);
 }
 
-TEST(Drive, CoulombFrictionHoldsBelowAndDragsAbove) {
+TEST_P(Drives, CoulombFrictionHoldsBelowAndDragsAbove) {
   Rig rig;
   rig.float_free();
   rig.params.joint_friction_scale = 1.0;
@@ -168,7 +170,7 @@ TEST(Drive, CoulombFrictionHoldsBelowAndDragsAbove) {
   EXPECT_NEAR(drag_Nm / hand_inertia_kgm2() * 0.010, after - before, 0.01 * (after - before));
 }
 
-TEST(Drive, QuantisedServoIgnoresLessThanHalfACount) {
+TEST_P(Drives, QuantisedServoIgnoresLessThanHalfACount) {
   Rig rig;
   rig.float_free();
   rig.params.sensor_preset = 1;
@@ -182,7 +184,7 @@ TEST(Drive, QuantisedServoIgnoresLessThanHalfACount) {
   EXPECT_NEAR(5.0 * HOAP2_RAD_PER_COUNT, rig.out().true_q_rad[kHand], 0.51 * HOAP2_RAD_PER_COUNT);
 }
 
-TEST(Drive, ComplianceDeflectsByTorqueOverStiffnessUnseenByTheEncoder) {
+TEST(LongDrives, ComplianceDeflectsByTorqueOverStiffnessUnseenByTheEncoder) {
   Rig rig;
   rig.params.roll_stiffness_Nm_rad = 80.0;
   rig.params.joint_friction_scale = 0.0;
@@ -207,7 +209,7 @@ TEST(Drive, ComplianceDeflectsByTorqueOverStiffnessUnseenByTheEncoder) {
 
 // The eliminated rotor against its two laws: the link's torque is the spring's, and the
 // rotor turns by what the drive gives more than the spring takes.
-TEST(Drive, CompliantRowObeysSpringAndRotor) {
+TEST_P(Drives, CompliantRowObeysSpringAndRotor) {
   Rig rig;
   rig.float_free();
   rig.params.roll_stiffness_Nm_rad = 2000.0;
@@ -234,7 +236,7 @@ TEST(Drive, CompliantRowObeysSpringAndRotor) {
 }
 
 // Rotor and link on a spring: the difference oscillates at sqrt(k / I_reduced).
-TEST(Drive, CompliantJointRingsAtItsEigenfrequency) {
+TEST_P(Drives, CompliantJointRingsAtItsEigenfrequency) {
   Rig rig;
   rig.float_free();
   rig.params.roll_stiffness_Nm_rad = 20.0;
@@ -267,6 +269,8 @@ TEST(Drive, CompliantJointRingsAtItsEigenfrequency) {
   const double expected_s = std::acos(-1.0) / std::sqrt(20.0 / link_I);
   EXPECT_NEAR(expected_s, half_period_s, 0.1 * expected_s);
 }
+
+INSTANTIATE_WITH_EACH_SOLVER(Drives);
 
 }  // namespace
 }  // namespace hoap2_sim

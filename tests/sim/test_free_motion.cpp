@@ -1,6 +1,8 @@
 // Free flight: momenta, energy, pushes, mechanical stops.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "drive/drive.h"
 #include "push/push.h"
 #include "rig.h"
@@ -27,13 +29,14 @@ void set_tumbling(Rig *rig, std::uint64_t seed, double body_speed = 1.0) {
   rig->mode_of_all(kDriveOff);
 }
 
-class FreeFall : public ::testing::TestWithParam<int> {};
+class FreeFall : public ::testing::TestWithParam<std::tuple<int, int>> {};
 
 TEST_P(FreeFall, KeepsBothMomenta) {
   Rig rig;
+  rig.params.solver = std::get<1>(GetParam());
   rig.params.start_height_m = 50.0;
   rig.params.joint_friction_scale = 0.0;
-  set_tumbling(&rig, static_cast<std::uint64_t>(GetParam()));
+  set_tumbling(&rig, static_cast<std::uint64_t>(std::get<0>(GetParam())));
   const Momentum before = momentum(rig.state());
   double fastest_joint_rad_s = 0.0;
   for (const double rate : rig.out().true_qd_rad_s)
@@ -53,7 +56,13 @@ TEST_P(FreeFall, KeepsBothMomenta) {
   EXPECT_LT(turned, 2e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, FreeFall, ::testing::Range(1, 9));
+INSTANTIATE_TEST_SUITE_P(Articulated, FreeFall,
+                         ::testing::Combine(::testing::Range(1, 9),
+                                            ::testing::Values(HOAP2_SOLVER_ARTICULATED)));
+INSTANTIATE_TEST_SUITE_P(Ode, FreeFall,
+                         ::testing::Combine(::testing::Range(1, 3), ::testing::Values(HOAP2_SOLVER_ODE)));
+
+class FreeMotion : public WithEachSolver {};
 
 // Kinetic energy after 0.1 s of moving joints over the one before it, the friction
 // switched on in between.
@@ -79,13 +88,13 @@ double energy_kept(double joint_friction_scale) {
   return energy_J / kinetic_energy_J(moving);
 }
 
-TEST(FreeMotion, EnergyIsKeptWithoutFrictionAndTakenByIt) {
+TEST_P(FreeMotion, EnergyIsKeptWithoutFrictionAndTakenByIt) {
   EXPECT_NEAR(1.0, energy_kept(0.0), 2e-3);
   EXPECT_LT(energy_kept(1.0), 0.9);
   EXPECT_LT(energy_kept(10.0), 1e-3);
 }
 
-TEST(FreeMotion, APushGivesItsImpulse) {
+TEST_P(FreeMotion, APushGivesItsImpulse) {
   Rig rig;
   rig.float_free();
   rig.params.push_link[2] = HOAP2_L_CHEST;
@@ -110,7 +119,7 @@ TEST(FreeMotion, APushGivesItsImpulse) {
   EXPECT_NEAR(0.0, after.linear_W_Ns.z, 1e-6);
 }
 
-TEST(FreeMotion, APushTurnsAboutTheComByItsLever) {
+TEST_P(FreeMotion, APushTurnsAboutTheComByItsLever) {
   Rig rig;
   rig.float_free();
   rig.params.push_link[0] = HOAP2_L_CHEST;
@@ -126,7 +135,7 @@ TEST(FreeMotion, APushTurnsAboutTheComByItsLever) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(expected[i], actual[i], 1e-3 * norm(expected)) << i;
 }
 
-TEST(FreeMotion, PushProfileIsSmoothAndEndsInTime) {
+TEST(PushProfile, IsSmoothAndEndsInTime) {
   EXPECT_EQ(0.0, push_profile(-1e-9, 0.1, 0.0));
   EXPECT_EQ(1.0, push_profile(0.0, 0.1, 0.0));
   EXPECT_EQ(0.0, push_profile(0.1, 0.1, 0.0));
@@ -135,7 +144,7 @@ TEST(FreeMotion, PushProfileIsSmoothAndEndsInTime) {
   EXPECT_NEAR(1.0, push_profile(0.05, 0.1, 1.0), 1e-12) << "ramps longer than the push meet in its middle";
 }
 
-TEST(FreeMotion, StopsHoldTheJoints) {
+TEST_P(FreeMotion, StopsHoldTheJoints) {
   Rig rig;
   rig.float_free();
   rig.start();
@@ -148,6 +157,8 @@ TEST(FreeMotion, StopsHoldTheJoints) {
   EXPECT_NEAR(HOAP2_JOINT[HOAP2_J_L_ANKLE_ROLL].limit_hard_rad[1], out.true_q_rad[HOAP2_J_L_ANKLE_ROLL],
               0.003);
 }
+
+INSTANTIATE_WITH_EACH_SOLVER(FreeMotion);
 
 }  // namespace
 }  // namespace hoap2_sim

@@ -6,7 +6,9 @@
 namespace hoap2_sim {
 namespace {
 
-TEST(Stance, FloorCarriesTheWeightWhereStaticsSays) {
+class Stance : public WithEachSolver {};  // LongStance: with the default solver alone
+
+TEST_P(Stance, FloorCarriesTheWeightWhereStaticsSays) {
   Rig rig;
   rig.start();
   rig.step(2000);
@@ -27,7 +29,7 @@ TEST(Stance, FloorCarriesTheWeightWhereStaticsSays) {
   EXPECT_NEAR(out.true_cop_W_m[1] * kMg_N, moment_Nm, 1e-3);
 }
 
-TEST(Stance, TiltedFloorHasTheCopBelowTheComAlongGravity) {
+TEST_P(Stance, TiltedFloorHasTheCopBelowTheComAlongGravity) {
   Rig rig;
   rig.params.floor_tilt_rad[0] = 0.02;
   rig.params.floor_tilt_rad[1] = -0.03;
@@ -41,7 +43,7 @@ TEST(Stance, TiltedFloorHasTheCopBelowTheComAlongGravity) {
   EXPECT_NEAR(0.0, std::hypot(force.x, force.y), 1e-3 * kMg_N);
 }
 
-TEST(Stance, CopIsHeldInFlight) {
+TEST_P(Stance, CopIsHeldInFlight) {
   Rig rig;
   rig.params.start_height_m = 1.0;
   rig.params.start_pos_W_m[0] = 4.0;
@@ -65,13 +67,13 @@ double slide_m_s2(double mu) {
   return norm(vec(rig.out().true_com_rate_W_m_s) - before) / 0.3;
 }
 
-TEST(Stance, SlidesBelowTheFrictionAngleAndHoldsAboveIt) {
+TEST_P(Stance, SlidesBelowTheFrictionAngleAndHoldsAboveIt) {
   EXPECT_LT(slide_m_s2(0.18), 5e-3);
   const double expected_m_s2 = 9.81 * (std::sin(0.15) - 0.12 * std::cos(0.15));
   EXPECT_NEAR(expected_m_s2, slide_m_s2(0.12), 0.02 * expected_m_s2);
 }
 
-TEST(Stance, StandingDoesNotCreep) {
+TEST(LongStance, StandingDoesNotCreep) {
   Rig rig;
   rig.start();
   rig.step(1000);
@@ -80,7 +82,7 @@ TEST(Stance, StandingDoesNotCreep) {
   EXPECT_LT(norm(vec(rig.out().true_foot_pos_W_m[0]) - before), 2e-5);
 }
 
-TEST(Stance, StandsOnABlock) {
+TEST_P(Stance, StandsOnABlock) {
   Rig rig;
   rig.params.block_count = 1;
   const double size_m[3] = {0.3, 0.4, 0.05};
@@ -96,7 +98,7 @@ TEST(Stance, StandsOnABlock) {
   EXPECT_EQ(0, out.other_contacts);
 }
 
-TEST(Stance, OneFootOnABlock) {
+TEST(LongStance, OneFootOnABlock) {
   Rig rig;
   rig.params.block_count = 1;
   const double size_m[3] = {0.2, 0.07, 0.02}, centre_m[3] = {0.0, -0.039, -0.006};  // top at 4 mm
@@ -115,7 +117,7 @@ TEST(Stance, OneFootOnABlock) {
   EXPECT_EQ(0, out.other_contacts);
 }
 
-TEST(Stance, APushedRobotFallsAndLiesOnTheFloor) {
+TEST(LongStance, APushedRobotFallsAndLiesOnTheFloor) {
   Rig rig;
   rig.params.push_link[0] = HOAP2_L_CHEST;
   rig.params.push_force_W_N[0][0] = 40.0;
@@ -136,6 +138,8 @@ TEST(Stance, APushedRobotFallsAndLiesOnTheFloor) {
   for (const BodyState &body : s.body) EXPECT_GT(body.com_pos_W_m[2], 0.0);
   EXPECT_LT(norm(vec(out.true_com_rate_W_m_s)), 0.05);
 }
+
+INSTANTIATE_WITH_EACH_SOLVER(Stance);
 
 }  // namespace
 }  // namespace hoap2_sim

@@ -38,7 +38,9 @@ bool same_bytes(const hoap2_plant_outputs_t &a, const hoap2_plant_outputs_t &b) 
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-TEST(StateBlock, RestoreContinuesBitForBit) {
+class StateOfEachSolver : public WithEachSolver {};
+
+TEST_P(StateOfEachSolver, RestoreContinuesBitForBit) {
   Rig rig, other;
   lively(&rig);
   rig.start();
@@ -70,7 +72,7 @@ TEST(StateBlock, RestoreContinuesBitForBit) {
   EXPECT_EQ(0, std::memcmp(&a, &b, sizeof a));
 }
 
-TEST(StateBlock, TwoRunsAreEqual) {
+TEST_P(StateOfEachSolver, TwoRunsAreEqual) {
   Rig a, b;
   for (Rig *rig : {&a, &b}) {
     lively(rig);
@@ -86,7 +88,7 @@ TEST(StateBlock, TwoRunsAreEqual) {
   EXPECT_EQ(0, std::memcmp(&sa, &sb, sizeof sa));
 }
 
-TEST(StateBlock, SeedChangesTheNoiseOnly) {
+TEST_P(StateOfEachSolver, SeedChangesTheNoiseOnly) {
   Rig a, b;
   for (Rig *rig : {&a, &b}) lively(rig);
   b.params.seed = 6;
@@ -128,7 +130,7 @@ TEST(StateBlock, ForeignOrDamagedBlocksAreRefused) {
   rig.step(1);
 }
 
-TEST(Threads, InstancesOnTwoThreadsGiveTheSingleThreadsResult) {
+TEST_P(StateOfEachSolver, InstancesOnTwoThreadsGiveTheSingleThreadsResult) {
   const auto run = [](Rig *rig) {
     for (int i = 0; i < 200; ++i) {
       swing(rig, i);
@@ -150,7 +152,7 @@ TEST(Threads, InstancesOnTwoThreadsGiveTheSingleThreadsResult) {
   EXPECT_EQ(0, std::memcmp(&a, &c, sizeof a));
 }
 
-TEST(BadInput, IsRefusedByNameAndChangesNothing) {
+TEST_P(StateOfEachSolver, IsKeptWhenAnInputIsRefusedByName) {
   Rig rig;
   rig.start();
   rig.step(5);
@@ -208,7 +210,7 @@ TEST(BadInput, EngineChecksBecomeExceptions) {
   dWorldDestroy(world);
 }
 
-TEST(Place, FarAwayAndTurnedTheJointsMoveTheSame) {
+TEST_P(StateOfEachSolver, FarAwayAndTurnedTheJointsMoveTheSame) {
   Rig here, there;
   const double yaw = 130.0 * std::acos(-1.0) / 180.0;
   for (Rig *rig : {&here, &there}) {
@@ -239,6 +241,8 @@ TEST(Place, FarAwayAndTurnedTheJointsMoveTheSame) {
   const Vec3 expected = rotation(2, yaw) * vec(here.out().true_com_W_m);
   EXPECT_LT(norm(moved - expected), 1e-7);
 }
+
+INSTANTIATE_WITH_EACH_SOLVER(StateOfEachSolver);
 
 }  // namespace
 }  // namespace hoap2_sim
