@@ -47,6 +47,7 @@ typedef struct {
   double lpc_shift_m[2];     /* along, across: shift of the landing of the step under way */
   double land_shift_m[2];    /* the same in O */
   double foot_shift_m[2][2]; /* in O: of each foot where it stands, against its nominal footprint */
+  double com_by_legs; /* how far the CoM moves in the pelvis for each metre that both feet move under it */
 
   /* whole-body map */
   double com_over_base_B_m[3]; /* CoM against the pelvis, last solution */

@@ -17,7 +17,7 @@ namespace {
 constexpr double kSensedLate_s = 0.010;
 constexpr double kNonsense_m = 0.2;    // a larger deviation is no measurement
 constexpr double kTooNear_m = 1e-9;    // spacing short by less is rounding
-constexpr double kLegMargin_m = 1e-3;  // of a leg's reach, for what the coarse look below leaves out
+constexpr double kLegMargin_m = 3e-3;  // of a leg's reach, for what the coarse look below leaves out
 
 double absolute(double value) { return value < 0.0 ? -value : value; }
 double least(double a, double b) { return a < b ? a : b; }
@@ -121,15 +121,24 @@ void keep_spacing(const hoap2_params_t& params, const hoap2_gait_t& gait, double
   if (spare_m < -kTooNear_m) shift[1] -= outward * spare_m / hoap2_cos(land[2] - foot[2]);
 }
 
-// Joint angles of the swing leg at a part of the step under way, for a swing from `from` to `to`; false when
-// the leg is too short or meets a joint limit. A coarse look: the CoM's place in the pelvis is that of now.
-bool swing_leg(const hoap2_params_t& params, const hoap2_gait_t& gait, const double from[3],
-               const double to[3], double part, double q_rad[6]) {
+// A swing to be looked at: from one footprint to another, with both feet shifted on average by mean_shift
+// (O) more than now.
+struct Swing {
+  double from[3];
+  double to[3];
+  double mean_shift[2];
+};
+
+// Joint angles of the swing leg at a part of the step under way; false when the leg is too short or meets a
+// joint limit. A coarse look: the CoM's place in the pelvis is that of now, but for what legs that trail by
+// the shift move it.
+bool swing_leg(const hoap2_params_t& params, const hoap2_gait_t& gait, const Swing& swing, double part,
+               double q_rad[6]) {
   const double growth = hoap2_exp(gait.omega_1_s * part * gait.step_ticks * kTick_s);
   const double heading_rad =
       gait.heading_from_rad + hoap2_quintic(part) * (gait.heading_to_rad - gait.heading_from_rad);
   double pose[4];
-  swing_foot(from, to, params.lift_m, swing_phase(params, part), pose);
+  swing_foot(swing.from, swing.to, params.lift_m, swing_phase(params, part), pose);
   double com_over_base[2];
   to_ground(heading_rad, gait.com_over_base_B_m, com_over_base);
   double from_base[2];
@@ -138,7 +147,8 @@ bool swing_leg(const hoap2_params_t& params, const hoap2_gait_t& gait, const dou
     double rate_m_s = gait.com_rate_m_s[i];
     pendulum_after(gait.cop_step_m[i], gait.omega_1_s, 0.5 * (growth + 1.0 / growth),
                    0.5 * (growth - 1.0 / growth), com_m, rate_m_s);
-    from_base[i] = pose[i] - (com_m + gait.tpcc_m[i] - com_over_base[i]);
+    const double legs_m = gait.com_by_legs * swing.mean_shift[i];
+    from_base[i] = pose[i] - (com_m + gait.tpcc_m[i] - com_over_base[i] - legs_m);
   }
   double seen[2];
   from_ground(heading_rad, from_base, seen);
@@ -152,13 +162,13 @@ bool swing_leg(const hoap2_params_t& params, const hoap2_gait_t& gait, const dou
 }
 
 // The same, and the joint rates there within what the walk's check at the start allows.
-bool swing_leg_in_time(const hoap2_params_t& params, const hoap2_gait_t& gait, const double from[3],
-                       const double to[3], double part) {
+bool swing_leg_in_time(const hoap2_params_t& params, const hoap2_gait_t& gait, const Swing& swing,
+                       double part) {
   double q_rad[6];
   double later_rad[6];
   const double ticks = 2.0;
-  if (!swing_leg(params, gait, from, to, part, q_rad) ||
-      !swing_leg(params, gait, from, to, part + ticks / gait.step_ticks, later_rad))
+  if (!swing_leg(params, gait, swing, part, q_rad) ||
+      !swing_leg(params, gait, swing, part + ticks / gait.step_ticks, later_rad))
     return false;
   for (int i = 0; i < 6; ++i) {
     const double limit_rad_s =
@@ -169,21 +179,34 @@ bool swing_leg_in_time(const hoap2_params_t& params, const hoap2_gait_t& gait, c
 }
 
 // Can the legs do a landing with this shift? Looked at where a swing is hardest: the knee is straightest at
-// both ends, bends fastest after a quarter and stretches fastest after three quarters of the swing. Two steps
-// later the foot is lifted again from where it landed: that swing is like the present one with the shift at
-// its beginning too.
+// lift-off and after touchdown, bends fastest after a quarter and stretches fastest after three quarters of
+// the swing. Two steps later the foot is lifted again from where it landed: that swing is like the present
+// one with the shift at its beginning too, unless the CoM has followed the feet by then.
 bool legs_can(const hoap2_params_t& params, const hoap2_gait_t& gait, const double shift[2]) {
-  double land[3];
-  double from[3];
-  shifted(gait.land_nominal, shift, land);
+  const double lifts = params.ds_fraction;
+  const double bends = lifts + 0.25 * (1.0 - 2.0 * lifts);
+  const double stretches = 1.0 - bends;
   const double* foot = gait.foot[gait.swing_foot];
-  double print[3] = {foot[0] - gait.foot_shift_m[gait.swing_foot][0],
-                     foot[1] - gait.foot_shift_m[gait.swing_foot][1], foot[2]};
-  shifted(print, shift, from);
+  const double* own = gait.foot_shift_m[gait.swing_foot];
+  const double* others = gait.foot_shift_m[1 - gait.swing_foot];
+  const double print[3] = {foot[0] - own[0], foot[1] - own[1], foot[2]};
+  Swing now;
+  Swing later;
+  shifted(gait.land_nominal, shift, now.to);
+  shifted(gait.land_nominal, shift, later.to);
+  shifted(print, shift, later.from);
+  for (int i = 0; i < 3; ++i) now.from[i] = foot[i];
+  for (int i = 0; i < 2; ++i) {
+    const double all_m = now.to[i] - gait.land_nominal[i];
+    now.mean_shift[i] = 0.5 * (all_m - own[i]);
+    later.mean_shift[i] = all_m - 0.5 * (own[i] + others[i]);
+  }
   double q_rad[6];
-  return swing_leg(params, gait, foot, land, 1.0, q_rad) && swing_leg(params, gait, from, land, 0.0, q_rad) &&
-         swing_leg_in_time(params, gait, foot, land, 0.3) &&
-         swing_leg_in_time(params, gait, foot, land, 0.7) && swing_leg_in_time(params, gait, from, land, 0.3);
+  if (!swing_leg(params, gait, now, 1.0, q_rad) || !swing_leg_in_time(params, gait, now, bends) ||
+      !swing_leg_in_time(params, gait, now, stretches))
+    return false;
+  return params.lpc_moves_cp ||
+         (swing_leg(params, gait, later, lifts, q_rad) && swing_leg_in_time(params, gait, later, bends));
 }
 
 // Draws a shift that the legs cannot do towards the one the foot stands with, with which the swing is the

@@ -159,6 +159,16 @@ void map_to_joints(const hoap2_params_t& params, int passes, hoap2_gait_t& gait)
   gait.joint_limit = result.joint_limit;
 }
 
+// Standing with both feet moved ahead under the CoM, for landing position control: its legs trail or lead.
+void find_com_by_legs(const hoap2_params_t& params, hoap2_gait_t& gait) {
+  constexpr double kAhead_m = 0.01;
+  hoap2_gait_t trial = gait;
+  for (int foot = 0; foot < 2; ++foot) trial.foot[foot][0] += kAhead_m;
+  place_feet(params, trial);
+  map_to_joints(params, 30, trial);
+  gait.com_by_legs = (trial.com_over_base_B_m[0] - gait.com_over_base_B_m[0]) / kAhead_m;
+}
+
 // What a tick of a trial walk shows to be impossible.
 int32_t trial_fault(const hoap2_gait_t& trial, const double q_last_rad[HOAP2_SIZE_JOINT]) {
   if (trial.pulled_back || trial.joint_limit) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
@@ -200,6 +210,7 @@ void hoap2_gait_reset(const hoap2_params_t* params, hoap2_gait_t* gait) {
   gait->cosh_tick = 0.5 * (gait->exp_tick + 1.0 / gait->exp_tick);
   gait->sinh_tick = 0.5 * (gait->exp_tick - 1.0 / gait->exp_tick);
   hoap2::stand_still(*gait);
+  hoap2::find_com_by_legs(*params, *gait);
   for (int i = 0; i < 2; ++i) gait->com_late_m[i] = gait->com_m[i];
 }
 

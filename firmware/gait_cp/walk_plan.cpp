@@ -51,7 +51,7 @@ void plan_step(const hoap2_params_t& params, bool last, hoap2_gait_t& gait) {
     const double* left = swing == 1 ? gait.land : gait.foot[1];
     capture_point_between(params, right, left, gait.cp_eos_m);
   } else {
-    capture_point_over(params, params.lpc_moves_cp ? gait.land : gait.land_nominal, swing, gait.cp_eos_m);
+    capture_point_over(params, gait.land, swing, gait.cp_eos_m);
   }
   plan_cop(params, sole_polygon(gait.foot[stance], params.cop_margin_m), params.step_time_s, gait);
 }

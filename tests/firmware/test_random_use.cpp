@@ -38,6 +38,8 @@ hoap2_params_t random_params(RandomPosture& random) {
   params.first_swing_foot = random.uniform(0.0, 1.0) < 0.5 ? 0 : 1;
   params.cop_profile = random.uniform(0.0, 1.0) < 0.5 ? 0 : 1;
   params.cp_controller = static_cast<int32_t>(random.uniform(0.0, 2.999));
+  params.landing_control = random.uniform(0.0, 1.0) < 0.5 ? 0 : 1;
+  params.lpc_moves_cp = random.uniform(0.0, 1.0) < 0.5 ? 0 : 1;
   params.steps_forward = static_cast<int32_t>(random.uniform(0.0, 6.999));
   params.steps_in_place = 2;
   return params;
@@ -81,6 +83,8 @@ TEST(RandomUse, NonsenseFromTheSensorsStaysWithinTheLimits) {
     params.start_up_s = 0.3;
     params.calibrate_s = 0.1;
     params.cp_controller = controller;
+    params.landing_control = HOAP2_SWITCH_ON;
+    params.lpc_moves_cp = controller % 2;
     Loop loop(params);
     for (int k = 0; k < 6000; ++k) {
       for (double& q_rad : loop.in.q_enc_rad) q_rad = random.uniform(-3.4, 3.4);
