@@ -7,9 +7,6 @@ from __future__ import annotations
 
 import math
 import os
-import shutil
-import subprocess
-import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +15,7 @@ import numpy as np
 from PIL import Image
 
 from hoap2 import picture_labels as labels
-from hoap2 import recording, renderer
+from hoap2 import recording, renderer, video_file
 from hoap2.errors import UserError
 from hoap2.recording import Recording
 from hoap2.renderer import Renderer, Scene
@@ -195,23 +192,7 @@ def strip(run: Recording | str | Path, times: list[float], path: str | Path, siz
     return _save(np.concatenate(parts, axis=1), path)
 
 
-def _encoder(path: Path, size: tuple[int, int], fps: float, errors) -> subprocess.Popen:
-    program = shutil.which("ffmpeg")
-    if program is None:
-        raise UserError("no video: ffmpeg is not installed", "apt-get install ffmpeg, or run with --no-video",
-                        exit_code=3)  # fmt: skip
-    command = [
-        program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y",
-        "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}", "-r", f"{fps:g}", "-i", "-",
-        "-an", "-c:v", "libx264", "-preset", "veryfast", "-crf", "23", "-pix_fmt", "yuv420p",
-        "-movflags", "+faststart", str(path),
-    ]  # fmt: skip
-    # A session of its own: Ctrl-C is for us, the encoder ends when its input does.
-    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=errors,
-                            start_new_session=True)  # fmt: skip
-
-
-def _feed(run: Recording, rows: list[int], size: tuple[int, int], view: str, samples: int, out,
+def _feed(run: Recording, rows: list[int], size: tuple[int, int], view: str, samples: int, out: video_file.VideoFile,
           progress: Callable[[int, int], object] | None) -> bool:  # fmt: skip
     """Draw the rows into the encoder; False when progress asked to stop (it returned False)."""
     targets, with_push = camera_targets(run), _has_push(run)
@@ -221,7 +202,7 @@ def _feed(run: Recording, rows: list[int], size: tuple[int, int], view: str, sam
             camera.draw(scene_from_run(row, run, view, targets[row]), picture)
             labels.caption(picture, _caption(run, row))
             labels.legend(picture, with_push)
-            out.write(picture.data)
+            out.write(picture)
             if progress is not None and progress(done + 1, len(rows)) is False:
                 return False
     return True
@@ -241,24 +222,8 @@ def write_video(run: Recording | str | Path, path: str | Path, fps: float = 25.0
     count = max(1, math.floor((run.end_s - run.t_s[0]) * slow * fps) + 1)
     rows = [int(r) for r in np.searchsorted(run.t_s, run.t_s[0] + np.arange(count) / (slow * fps) - 1e-9)]
     rows = [min(r, len(run.t_s) - 1) for r in rows]
-    part = path.with_name(f".{path.stem}.part-{os.getpid()}.mp4")
-    with tempfile.TemporaryFile() as errors:
-        encoder = _encoder(part, size, fps, errors)
-        try:
-            complete = _feed(run, rows, size, view, samples, encoder.stdin, progress)
-            encoder.stdin.close()
-            if encoder.wait() != 0:
-                raise BrokenPipeError
-            if not complete:
-                return None
-            part.replace(path)
-        except BrokenPipeError:
-            errors.seek(0)
-            text = errors.read().decode(errors="replace").strip().splitlines()
-            raise UserError(f"no video: ffmpeg failed: {text[-1] if text else 'no message'}", exit_code=3) from None
-        finally:
-            if encoder.poll() is None:
-                encoder.kill()
-                encoder.wait()
-            part.unlink(missing_ok=True)
-    return path
+    with video_file.writing(path, size, fps) as video:
+        complete = _feed(run, rows, size, view, samples, video, progress)
+        if not complete:
+            video.discard()
+    return path if complete else None

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 LINE_IN = 0.155  # a line of the text block
 HEAD_IN = 0.42  # the title
 FOOT_IN = 0.52  # from the last panel to the text block
-WRAP = (21, 44, 56)  # letters a line in each column of the text block
-COLUMNS = (0.0, 0.185, 0.52)  # where they begin, as parts of the width between the margins
+WRAP = (19, 37, 52)  # letters a line in each column of the text block
+COLUMNS = (0.0, 0.19, 0.52)  # where they begin, as parts of the width between the margins
 # Panels from above to below: the room above each and its height, in inches.
 WALK = ((panels.strip, 0.3, 1.62), (panels.angles, 0.62, 2.2), (plan_panels.plan, 0.88, 2.4), (panels.shift, 0.56, 1.0))
 DESIGN = ((plan_panels.design_plan, 0.48, 2.9), (plan_panels.design_time, 0.88, 2.6))

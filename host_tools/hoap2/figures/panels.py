@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 LEFT_IN, RIGHT_IN = 0.62, 0.12  # margins of every panel
-FALL_MARGIN_S = 0.25  # the fall itself leaves the frame, so that what led to it can be seen
+FALL_MARGIN_S = 0.5  # the fall itself leaves the frame, so that what led to it can be seen
 LABEL_PLACE = (-0.062, 0.5)  # of a y label, in parts of the axes
 
 
@@ -74,8 +74,9 @@ def mark_fall(axes: Axes, walk: Walk, label: bool) -> None:
     at = walk.fall_s - walk_begins_s(walk)
     axes.axvline(at, color=style.BLACK, linewidth=1.0, linestyle=(0, (4, 2)))
     if label:
-        axes.annotate(f"fell, step {walk_fall_step(walk)}", (at, 1), (3, -3), xycoords=("data", "axes fraction"),
-                      textcoords="offset points", va="top", fontsize=7.5)  # fmt: skip
+        side = ((-3, -3), "right") if at > 0.85 * time_limits(walk)[1] else ((3, -3), "left")
+        axes.annotate(f"fell, step {walk_fall_step(walk)}", (at, 1), side[0], xycoords=("data", "axes fraction"),
+                      textcoords="offset points", va="top", ha=side[1], fontsize=7.5)  # fmt: skip
 
 
 def time_limits(walk: Walk) -> tuple[float, float]:

@@ -16,30 +16,43 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+SHIFT_SHOWN_MM = 0.5  # landings that are shifted by less are not marked
+
+
 def plan(figure: Figure, walk: Walk, bottom: float, height: float) -> None:
-    """C: CoM from above, footprints as planned and as they landed, each landing's shift as a line."""
+    """C: CoM from above; landings: nominal, shifted by (7.14), and where the foot really stood (it may slip)."""
     axes = new_axes(figure, bottom, height, "C  CoM trajectory and landing positions, seen from above")
-    for print_ in walk.nominal:
-        corners = sole_mm(1e3 * print_.x_m, 1e3 * print_.y_m, print_.yaw_rad)
+    for place in walk.nominal:
+        corners = sole_mm(1e3 * place.x_m, 1e3 * place.y_m, place.yaw_rad)
         axes.fill(*corners.T, facecolor="none", edgecolor=style.LIGHT, linewidth=0.6)
+    nominal = np.array([(1e3 * p.x_m, 1e3 * p.y_m) for p in walk.nominal])
+    axes.plot(*nominal.T, "+", color=style.GREY, markersize=5.5, markeredgewidth=0.8, label="landing, nominal")
+    _shifted(axes, walk, nominal)
     for foot, color, word in ((0, style.RIGHT, "right"), (1, style.LEFT, "left")):
-        nominal = np.array([(1e3 * p.x_m, 1e3 * p.y_m) for p in walk.nominal if p.foot == foot])
-        axes.plot(*nominal.T, "+", color=style.GREY, markersize=5.5, markeredgewidth=0.8,
-                  label="landing, nominal" if foot == 0 else None)  # fmt: skip
         mine = [entry for entry in walk.landed if entry[1] == foot]
-        for step, _, x, y, _ in mine:
-            plan = walk.nominal[step + 1]
-            axes.plot([1e3 * plan.x_m, x], [1e3 * plan.y_m, y], color=color, linewidth=0.9)
         if mine:
             axes.plot(*np.array([(x, y) for _, _, x, y, _ in mine]).T, "o", color=color, markersize=2.6,
-                      label=f"{word} foot, landed")  # fmt: skip
+                      label=f"{word} foot, true")  # fmt: skip
             axes.fill(*sole_mm(*mine[-1][2:]).T, facecolor=color, alpha=0.18, edgecolor=color, linewidth=0.8)
+    dash = (0, (3, 1.5))
     _tracks(
-        axes,
-        walk,
-        (("c.com_plan_W_m", "CoM, plan", style.ORANGE, (0, (3, 1.5))), ("p.true_com_W_m", "CoM", style.BLACK, "-")),
+        axes, walk, (("c.com_plan_W_m", "CoM, plan", style.ORANGE, dash), ("p.true_com_W_m", "CoM", style.BLACK, "-"))
     )
     _finish_plan(axes)
+
+
+def _shifted(axes: Axes, walk: Walk, nominal: np.ndarray) -> None:
+    """The landings that the controller aimed at, each joined with its nominal one."""
+    steps, shifts = walk.shifts_mm
+    moved = [int(s) for s, d in zip(steps, shifts) if np.hypot(*d) > SHIFT_SHOWN_MM and s + 1 < len(nominal)]
+    if not moved:
+        return
+    shift = {int(s): d for s, d in zip(steps, shifts)}
+    ends = np.array([nominal[step + 1] + shift[step] for step in moved])
+    for step, end in zip(moved, ends):
+        axes.plot(*np.array([nominal[step + 1], end]).T, color=style.BLACK, linewidth=0.7)
+    axes.plot(*ends.T, "D", markersize=3.2, markerfacecolor="white", markeredgecolor=style.BLACK, markeredgewidth=0.7,
+              label="shifted by \u0394r")  # fmt: skip
 
 
 def _tracks(axes: Axes, walk: Walk, signals: tuple) -> None:
@@ -53,7 +66,7 @@ def _finish_plan(axes: Axes) -> None:
     axes.set(xlabel="x, forward (mm)", ylabel="y, left (mm)")
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.03, 0.06)
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.98), ncols=5, columnspacing=1.2)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.98), ncols=6, columnspacing=1.1, handletextpad=0.5)
     axes.title.set_position((0.0, 1.0))
     axes.set_title(axes.get_title(loc="left"), pad=17)
 

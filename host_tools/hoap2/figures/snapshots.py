@@ -12,14 +12,16 @@ from hoap2.figures.walk_data import Walk
 from hoap2.renderer import Renderer
 
 COUNT = 6
-AFTER_FALL_S = 0.35
+BEFORE_FALL_S, AFTER_FALL_S = 0.3, 0.35
 
 
 def moments(walk: Walk, count: int = COUNT) -> list[float]:
-    """Times from the first step to the end, or to shortly after the fall."""
+    """Times evenly from the first step to the end; of a fall one shortly before it and one shortly after."""
     first = walk.t_s[min(walk.step_ticks.values(), default=0)]
-    end = walk.t_s[-1] if walk.fall_s is None else min(walk.t_s[-1], walk.fall_s + AFTER_FALL_S)
-    return [float(t) for t in np.linspace(first, end, count)]
+    if walk.fall_s is None:
+        return [float(t) for t in np.linspace(first, walk.t_s[-1], count)]
+    before = np.linspace(first, max(first, walk.fall_s - BEFORE_FALL_S), count - 1)
+    return [float(t) for t in (*before, min(walk.t_s[-1], walk.fall_s + AFTER_FALL_S))]
 
 
 def take(walk: Walk, times: list[float], size_px: tuple[int, int], view: str = "side") -> list[np.ndarray]:
