@@ -166,6 +166,16 @@ def test_ratio_is_the_median_over_chunks():
     ns = {"a": np.array([10, 10, 10, 90, 10, 10]), "b": np.array([20, 20, 5, 45, 20, 20])}
     case = plant.Case(ns, {}, [slice(0, 2), slice(2, 4), slice(4, 6)])
     assert case.ratio("a", "b") == 0.5  # 0.5, 2, 0.5
+    case.chunks.pop(1)
+    assert case.ratio_of_means("a", "b") == 0.5 and case.us()["b"]["median"] == 0.02  # only what counts
+
+
+def test_the_first_ticks_of_a_turn_do_not_count(cases: dict[str, plant.Case]):
+    for case in cases.values():
+        assert case.chunks[0].start == plant.WARM_UP + plant.COLD
+        assert {chunk.start % plant.CHUNK for chunk in case.chunks} == {plant.COLD}
+        assert case.counted("articulated").size == (WALKS_AFTER - plant.WARM_UP) // plant.CHUNK * (
+            plant.CHUNK - plant.COLD)
 
 
 def test_table_and_picture(cases: dict[str, plant.Case], tmp_path: Path, capsys):

@@ -22,6 +22,7 @@ from hoap2.errors import UserError
 CASES = ("floor", "air")
 CHUNK = 50  # ticks
 WARM_UP = 200  # ticks that are stepped but not counted: landing on the soles, filling caches
+COLD = 2  # ticks at the start of each turn, with the caches still full of another simulator: stepped, not counted
 UPRIGHT = 0.9  # cosine of the pelvis' tilt; a robot that walks stays above 0.999
 OURS = {"articulated": "articulated", "dworldstep": "ode"}
 MUJOCO = {
@@ -36,14 +37,21 @@ RATIOS = ("dworldstep", *MUJOCO)
 
 @dataclass
 class Case:
-    """One repetition of one case: durations (ns) of every simulator, (ticks,), and what the robots did."""
+    """One repetition of one case: durations (ns) of every simulator, (ticks,), and what the robots did.
+
+    chunks: the ticks of each turn that count.
+    """
 
     ns: dict[str, np.ndarray]
     robots: dict[str, dict]
     chunks: list[slice] = field(default_factory=list)
 
+    def counted(self, name: str) -> np.ndarray:
+        """Durations (ns) of a simulator's ticks that count."""
+        return np.concatenate([self.ns[name][chunk] for chunk in self.chunks])
+
     def us(self) -> dict[str, dict]:
-        return {name: vars(Spread.of(ns[WARM_UP:])) for name, ns in self.ns.items()}
+        return {name: vars(Spread.of(self.counted(name))) for name in self.ns}
 
     def ratio(self, of: str, to: str) -> float:
         """Median over the chunks of the ratio of the chunks' median ticks."""
@@ -51,7 +59,7 @@ class Case:
 
     def ratio_of_means(self, of: str, to: str) -> float:
         """Whole time over whole time: heavy ticks count in full, and so does every interruption."""
-        return float(self.ns[of][WARM_UP:].sum() / self.ns[to][WARM_UP:].sum())
+        return float(self.counted(of).sum() / self.counted(to).sum())
 
 
 def measure_case(recording: Recording, air: bool) -> Case:
@@ -70,7 +78,7 @@ def measure_case(recording: Recording, air: bool) -> Case:
         for simulator in everyone:
             track.look(simulator)
     _assert_two_solvers(track)
-    case = Case(ns, track.robots(), [c for c in chunks if c.start >= WARM_UP])
+    case = Case(ns, track.robots(), [slice(c.start + COLD, c.stop) for c in chunks if c.start >= WARM_UP])
     for s in ours:
         case.robots[s.name]["outputs_us"] = s.outputs_us()
     counted = sum(c.start < WARM_UP for c in chunks)
@@ -141,7 +149,7 @@ def run(seconds: float, repeat: int, progress: Callable[[str], None]) -> tuple[d
     model = str(simulators.MODEL.relative_to(paths.ROOT))
     document = {"machine": about, "mujoco": {"version": mujoco.__version__, "model": model},
                 "settings": {"seconds": seconds, "ticks": recording.ticks, "repeat": repeat, "chunk_ticks": CHUNK,
-                             "warm_up_ticks": WARM_UP, "ticks_walking": int(recording.walking.sum()),
-                             "clock_us": simulators.clock_us()},
+                             "warm_up_ticks": WARM_UP, "cold_ticks": COLD,
+                             "ticks_walking": int(recording.walking.sum()), "clock_us": simulators.clock_us()},
                 **measure.medians(runs), "runs": runs}
     return document, done

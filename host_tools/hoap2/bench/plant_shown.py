@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from hoap2.bench import measure
-from hoap2.bench.plant import CASES, WARM_UP, Case
+from hoap2.bench.plant import CASES, Case
 
 NAMES = {
     "articulated": "plant, articulated",
@@ -79,7 +79,7 @@ def draw(document: dict, runs: list[dict[str, Case]], path: Path) -> None:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    us = {case: {name: np.concatenate([run[case].ns[name][WARM_UP:] for run in runs]) / 1e3 for name in NAMES}
+    us = {case: {name: np.concatenate([run[case].counted(name) for run in runs]) / 1e3 for name in NAMES}
           for case in CASES}
     edges = np.geomspace(*_range(us), 160)
     figure, axes = pyplot.subplots(1, len(CASES), figsize=(11, 4.8), sharex=True, sharey=True, layout="constrained")
