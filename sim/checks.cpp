@@ -58,6 +58,7 @@ const char *name_of_bad_parameter(const hoap2_plant_params_t &params, int bad) {
   HOAP2_TRY(soil_unload_Pa_m);
   HOAP2_TRY(soil_unload_Pa_m2);
   HOAP2_TRY(soil_damping_Pas_m);
+  HOAP2_TRY(soil_heave);
   HOAP2_TRY(soil_repose_rad);
   HOAP2_TRY(soil_edge_loss);
   HOAP2_TRY(soil_edge_m);

@@ -74,6 +74,7 @@ void Soil::start() {
   pressed_.clear();
   find_sheared();
   sinkage_m_[0] = sinkage_m_[1] = 0.0;
+  compacted_m3_ = 0.0;
   tick_ = 0;
 }
 
@@ -254,7 +255,9 @@ void Soil::keep_face(std::size_t i, const State &next, const Mat3 next_axes_W[HO
   for (std::size_t k = tick.first_pressed; k < tick.end_pressed; ++k) {
     Cell &cell = field_.cell(pressed_[k].index);
     if (pressed_[k].cell.memory_m < cell.memory_m) continue;  // another face pressed deeper
-    flow_.displace(i, cell_m2 * (cell.surface_m() - pressed_[k].cell.surface_m()));
+    const double sunk_m3 = cell_m2 * (cell.surface_m() - pressed_[k].cell.surface_m());
+    flow_.displace(i, params_.soil_heave * sunk_m3);
+    compacted_m3_ += (1.0 - params_.soil_heave) * sunk_m3;
     cell = pressed_[k].cell;
   }
   if (tick.end_pressed > tick.first_pressed) flow_.wake(i, tick.under);

@@ -54,7 +54,8 @@ class Soil {
 
   // Of the sole's middle below the untouched surface; 0 while the sole does not touch.
   double mean_sinkage_m(int foot) const { return sinkage_m_[foot]; }
-  double volume_m3() const { return field_.volume_m3() + flow_.pending_m3(); }
+  // Under the unloaded surface, with what was compacted: constant.
+  double volume_m3() const { return field_.volume_m3() + flow_.pending_m3() + compacted_m3_; }
   const HeightField &field() const { return field_; }
   // Another initial surface than the flat one: call after start().
   void set_level(int ix, int iy, double level_m);
@@ -105,6 +106,7 @@ class Soil {
   Flow flow_;
   std::vector<PatchShear> shear_;
   double sinkage_m_[2] = {};
+  double compacted_m3_ = 0.0;
   std::int64_t tick_ = 0;
 
   std::vector<bool> is_sheared_;  // faces with any patch in shear_

@@ -19,6 +19,7 @@ struct SoilHead {
   std::uint64_t size;
   std::int64_t tick;
   double sinkage_m[2];
+  double compacted_m3;
 };
 
 struct SavedCell {
@@ -51,7 +52,7 @@ std::size_t Soil::state_bytes() const {
 
 void Soil::save(void *to) const {
   auto *bytes = static_cast<unsigned char *>(to);
-  put(SoilHead{kSoilMagic, state_bytes(), tick_, {sinkage_m_[0], sinkage_m_[1]}}, &bytes);
+  put(SoilHead{kSoilMagic, state_bytes(), tick_, {sinkage_m_[0], sinkage_m_[1]}, compacted_m3_}, &bytes);
   for (std::size_t i = 0; i < field_.size(); ++i) {
     const Cell &cell = field_.cell(i);
     put(SavedCell{cell.level_m, cell.memory_m, cell.pressure_Pa}, &bytes);
@@ -66,7 +67,7 @@ std::string Soil::fault_of_block(const void *from) const {
   const auto head = take<SoilHead>(&bytes);
   if (head.magic != kSoilMagic || head.size != state_bytes())
     return "the block is not the state of this soil";
-  bool is_good = head.tick >= 0;
+  bool is_good = head.tick >= 0 && is_within(head.compacted_m3, -kMostVolume_m3, kMostVolume_m3);
   const double deepest_m = field_.depth_m() + kHighest_m;
   for (const double sinkage_m : head.sinkage_m) is_good &= is_within(sinkage_m, -kHighest_m, deepest_m);
   for (std::size_t i = 0; i < field_.size(); ++i) {
@@ -98,6 +99,7 @@ std::string Soil::restore(const void *from) {
   const auto *bytes = static_cast<const unsigned char *>(from);
   const auto head = take<SoilHead>(&bytes);
   tick_ = head.tick;
+  compacted_m3_ = head.compacted_m3;
   std::copy(head.sinkage_m, head.sinkage_m + 2, sinkage_m_);
   for (std::size_t i = 0; i < field_.size(); ++i) {
     const auto cell = take<SavedCell>(&bytes);

@@ -76,6 +76,7 @@ typedef struct {
   double soil_unload_Pa_m; /* k_0 of the unloading stiffness k_0 + A_u z_u [Pa/m] */
   double soil_unload_Pa_m2; /* A_u of the unloading stiffness k_0 + A_u z_u [Pa/m2] */
   double soil_damping_Pas_m; /* damping of the pressure [Pa.s/m] */
+  double soil_heave; /* share of the displaced volume that rises around what displaced it; the rest is compacted [1] */
   double soil_repose_rad; /* angle of repose [rad] */
   double soil_edge_loss; /* share of the bearing pressure that is lost at the edge of a sole [1] */
   double soil_edge_m; /* width of the strip at the edge over which that loss fades [m] */
@@ -150,6 +151,7 @@ static inline void hoap2_plant_params_defaults(hoap2_plant_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_unload_Pa_m)[i_] = 100000000.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_unload_Pa_m2)[i_] = 0.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_damping_Pas_m)[i_] = 40000.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_heave)[i_] = 0.25;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_repose_rad)[i_] = 0.5585053606381855;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_edge_loss)[i_] = 0.3;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_edge_m)[i_] = 0.01;
@@ -209,6 +211,7 @@ static inline int hoap2_plant_params_out_of_range(const hoap2_plant_params_t *p)
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_unload_Pa_m)[i_]; if (!(v_ >= 100000.0 && v_ <= 1000000000000.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_unload_Pa_m2)[i_]; if (!(v_ >= 0.0 && v_ <= 100000000000000.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_damping_Pas_m)[i_]; if (!(v_ >= 0.0 && v_ <= 100000000.0)) ++bad_; }
+  for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_heave)[i_]; if (!(v_ >= 0.0 && v_ <= 1.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_repose_rad)[i_]; if (!(v_ >= 0.05 && v_ <= 1.4)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_edge_loss)[i_]; if (!(v_ >= 0.0 && v_ <= 1.0)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const double v_ = ((const double *)(const void *)&p->soil_edge_m)[i_]; if (!(v_ >= 0.0 && v_ <= 0.05)) ++bad_; }
