@@ -166,6 +166,11 @@ class Walker {
     hoap2_get_outputs(self(), &outputs);
   }
   void step() {
+    command();
+    rig_->step();
+  }
+  // The controller's tick: sets the rig's inputs for its next one.
+  void command() {
     const hoap2_plant_outputs_t sensed = rig_->out();
     hoap2_inputs_t inputs = {};
     std::memcpy(inputs.q_enc_rad, sensed.q_enc_rad, sizeof inputs.q_enc_rad);
@@ -175,7 +180,6 @@ class Walker {
     inputs.sensor_tick = sensed.sensor_tick;
     take_commands();
     hoap2_step(self(), &inputs, &outputs);
-    rig_->step();
   }
 
   hoap2_params_t params = {};
