@@ -32,9 +32,35 @@ struct Face {
     const int j = static_cast<int>((v_m + half_b_m) * per_patch_b_m);
     return std::min(i, patches_a - 1) * patches_b + std::min(j, patches_b - 1);
   }
+  // A rectangle of the face by the patches it lies in: give(patch, part of the rectangle).
+  // By area, not by its middle: else what a sliding patch bears would flicker.
+  template <class Give>
+  void share_out(double u_m, double v_m, double half_u_m, double half_v_m, Give &&give) const;
   double patch_u_m(int patch) const { return half_a_m * ((2 * (patch / patches_b) + 1.0) / patches_a - 1.0); }
   double patch_v_m(int patch) const { return half_b_m * ((2 * (patch % patches_b) + 1.0) / patches_b - 1.0); }
 };
+
+template <class Give>
+void Face::share_out(double u_m, double v_m, double half_u_m, double half_v_m, Give &&give) const {
+  const double low_a = (u_m - half_u_m + half_a_m) * per_patch_a_m,
+               high_a = (u_m + half_u_m + half_a_m) * per_patch_a_m;
+  const double low_b = (v_m - half_v_m + half_b_m) * per_patch_b_m,
+               high_b = (v_m + half_v_m + half_b_m) * per_patch_b_m;
+  const int i0 = std::max(0, static_cast<int>(low_a)), i1 = std::min(patches_a - 1, static_cast<int>(high_a));
+  const int j0 = std::max(0, static_cast<int>(low_b)), j1 = std::min(patches_b - 1, static_cast<int>(high_b));
+  if (i0 == i1 && j0 == j1) {
+    give(i0 * patches_b + j0, 1.0);
+    return;
+  }
+  const double per_area = 1.0 / ((high_a - low_a) * (high_b - low_b));
+  for (int i = i0; i <= i1; ++i) {
+    // The first and the last one take what sticks out of the face.
+    const double part_a = ((i == i1 ? high_a : i + 1.0) - (i == i0 ? low_a : i)) * per_area;
+    for (int j = j0; j <= j1; ++j) {
+      give(i * patches_b + j, part_a * ((j == j1 ? high_b : j + 1.0) - (j == j0 ? low_b : j)));
+    }
+  }
+}
 
 // Soles first (right, left), then the other faces link by link.
 std::vector<Face> list_faces(const hoap2_plant_params_t &params);
@@ -86,7 +112,9 @@ struct Window {
 struct CellPart {
   std::size_t index;
   double u_m, v_m;
-  double cells;  // its size along the ground
+  double wide_a, wide_b;  // its size along a and b, in cells
+
+  double cells() const { return wide_a * wide_b; }
 };
 
 // Cells whose centre is under the face; that at an edge stands also for what its outer
@@ -98,6 +126,8 @@ class CellsUnder {
   CellsUnder(const HeightField &field, const Face &face, const FacePose &pose, double margin_m = 0.0);
   template <class Visit>
   void each(Visit &&visit) const;
+  double step_a_m() const { return step_a_; }
+  double step_b_m() const { return step_b_; }
   // Cells that can be under the face.
   Window window() const { return {first_x_, first_y_, last_x_, last_y_}; }
 
@@ -107,7 +137,7 @@ class CellsUnder {
 
   static double edge(double distance_m, double per_step) {
     const double steps = distance_m * per_step;
-    return steps < 1.0 ? steps + 0.5 : 1.0;
+    return steps < 1.0 - kOnEdge_m * per_step ? steps + 0.5 : 1.0;
   }
   static void clip(double value, double rate, double half, double *low, double *high);
 
@@ -149,13 +179,14 @@ void CellsUnder::each(Visit &&visit) const {
     for (int ix = first; ix <= last; ++ix) {
       const double x_m = x0_m + ix * cell_m;
       const double u = u0 + u_x_ * x_m, v = v0 + v_x_ * x_m;
-      CellPart part = {row + static_cast<std::size_t>(ix), u, v, 1.0};
+      CellPart part = {row + static_cast<std::size_t>(ix), u, v, 1.0, 1.0};
       if (std::fabs(u) > inner_a || std::fabs(v) > inner_b) {
         const double ahead = edge(half_a_ - u, per_a), behind = edge(half_a_ + u, per_a);
         const double left = edge(half_b_ - v, per_b), right = edge(half_b_ + v, per_b);
         part.u_m += 0.5 * step_a_ * (ahead - behind);
         part.v_m += 0.5 * step_b_ * (left - right);
-        part.cells = (ahead + behind - 1.0) * (left + right - 1.0);
+        part.wide_a = ahead + behind - 1.0;
+        part.wide_b = left + right - 1.0;
       }
       visit(part);
     }

@@ -162,29 +162,35 @@ void Soil::press_face(const Face &face, const FacePose &pose, const FaceTwist &t
                       FaceLoad *sum) {
   PatchTick *const patch = &patch_[static_cast<std::size_t>(face.first_patch)];
   for (int i = 0; i < face.patches(); ++i) patch[i] = PatchTick{};
-  if (pressure_.depends_on_direction()) find_shares(face, pose, twist);
+  const bool is_rft = pressure_.depends_on_direction();
+  if (is_rft) find_shares(face, pose, twist);
   const double per_m = 1.0 / pose.m.z;
   const double cell_area_m2 = field_.cell_m() * field_.cell_m() * per_m * slope_share(pose);
   const bool has_edge = edge_loss_ > 0.0 && face.foot >= 0;
   FaceLoad load;
   const CellsUnder cells(field_, face, pose);
+  const double half_step_a_m = 0.5 * cells.step_a_m(), half_step_b_m = 0.5 * cells.step_b_m();
   cells.each([&](const CellPart &part) {
     const Cell *cell = &field_.cell(part.index);
     const double depth_m = cell->level_m - pose.height_m(part.u_m, part.v_m);
     const double down_m_s = -per_m * twist.normal_m_s(part.u_m, part.v_m);
-    PatchTick &under = patch[face.patch_at(part.u_m, part.v_m)];
-    if (depth_m > 0.0 && pressure_.yields(*cell, depth_m, under.share.normal)) {
-      pressed_.push_back({part.index, pressure_.pressed(*cell, depth_m, under.share.normal)});
+    const double share = is_rft ? patch[face.patch_at(part.u_m, part.v_m)].share.normal : 1.0;
+    if (depth_m > 0.0 && pressure_.yields(*cell, depth_m, share)) {
+      pressed_.push_back({part.index, pressure_.pressed(*cell, depth_m, share)});
       cell = &pressed_.back().cell;
     }
-    const Response answer = pressure_.respond(*cell, depth_m, down_m_s, under.share.normal);
+    const Response answer = pressure_.respond(*cell, depth_m, down_m_s, share);
     if (answer.resistance_Pas_m <= 0.0 && answer.pressure_Pa <= 0.0) return;
-    const double area_m2 = cell_area_m2 * part.cells;
+    const double area_m2 = cell_area_m2 * part.cells();
     const double bearing_m2 = has_edge ? area_m2 * bearing(face, part) : area_m2;
     const double force_N = bearing_m2 * answer.pressure_Pa;
     load.press(part.u_m, part.v_m, force_N, bearing_m2 * per_m * answer.resistance_Pas_m);
-    under.normal_N += force_N;
-    if (answer.pressure_Pa > 0.0) under.area_m2 += area_m2;
+    if (answer.pressure_Pa <= 0.0) return;
+    face.share_out(part.u_m, part.v_m, half_step_a_m * part.wide_a, half_step_b_m * part.wide_b,
+                   [&](int i, double of_it) {
+                     patch[i].normal_N += of_it * force_N;
+                     patch[i].area_m2 += of_it * area_m2;
+                   });
   });
   tick->under = cells.window();
   *sum = load;
