@@ -145,7 +145,8 @@ def whole_run(fmi: int, duration_s: float | None) -> dict:
     with tempfile.TemporaryDirectory(prefix="hoap2-bench-") as folder:
         out, noted = Path(folder) / "run", Path(folder) / "loop.json"
         command = [sys.executable, "-m", "hoap2.bench.child", str(noted), "run", SCENARIO, "--no-video", "--json",
-                   "--fmi", str(fmi), "--out", str(out), *([] if duration_s is None else ["--duration", str(duration_s)])]
+                   "--fmi", str(fmi), "--out", str(out)]
+        command += [] if duration_s is None else ["--duration", str(duration_s)]
         begin = time.monotonic()
         with open(Path(folder) / "stdout", "w+b") as output:
             child = subprocess.Popen(command, stdout=output, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
