@@ -215,7 +215,7 @@ def compute(log: SignalLog, scenario: Scenario) -> dict:
         "judged_from_s": float(log.t_s[start]),
         "roll_deg": _spread(rpy[judged, 0], degrees),
         "pitch_deg": _spread(rpy[judged, 1], degrees),
-        "pitch_signed_deg": _signed(rpy[judged, 1], degrees),
+        "pitch_signed_deg": _signed(rpy[standing, 1], degrees),
     }
     for axis, name in enumerate(("roll", "pitch")):
         error = None

@@ -16,7 +16,7 @@ from hoap2.errors import UserError
 from hoap2.master import StopRequest
 from hoap2.progress import PartProgress
 from hoap2.scenario import Scenario
-from hoap2.studies import light
+from hoap2.studies import groups, light
 
 RUNS, PLAN = "runs.jsonl", "plan.json"
 Execute = Callable[[Scenario, products.Choice], dict]
@@ -123,7 +123,7 @@ def _by_task(prints: dict[Hashable, str], tasks: Mapping[Hashable, Scenario], ru
             found.errors[key] = failed[name]
         elif name in runs:
             verdict = bounds.judge(tasks[key].bounds, runs[name])
-            ok = runs[name]["error"] is None and all(entry["ok"] for entry in verdict.values())
+            ok = groups.counts(runs[name]) and all(entry["ok"] for entry in verdict.values())
             own = {"scenario": tasks[key].name, "seed": tasks[key].seed, "bounds": verdict, "ok": ok}
             found.summaries[key] = runs[name] | own
     return found

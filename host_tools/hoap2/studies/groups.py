@@ -34,13 +34,19 @@ def median(numbers: list[float]) -> float | None:
     return float(np.median(numbers)) if numbers else None
 
 
+def counts(row: dict) -> bool:
+    """Whether a run came to its end, or to its fall."""
+    return row["error"] is None or bool(row["fell"])
+
+
 def describe(rows: list[dict], errors: int = 0) -> dict:
     """The group's block in study.json.
 
-    rows: summaries of runs. A run that an error ended, like one that could not start (`errors` of them), counts
-    for nothing but `errors`. Each fraction has its 95 % Wilson interval under the same name in `wilson_95`.
+    rows: summaries of runs. A run that an error ended while it stood, like one that could not start (`errors` of
+    them), counts for nothing but `errors`; what happens to a robot that lies changes nothing.
+    Each fraction has its 95 % Wilson interval under the same name in `wilson_95`.
     """
-    whole = [row for row in rows if row["error"] is None]
+    whole = [row for row in rows if counts(row)]
     block: dict = {"runs": len(whole), "errors": errors + len(rows) - len(whole), "wilson_95": {}, "counts": {}}
     for name, metric in FRACTIONS.items():
         count = sum(bool(row.get(metric)) for row in whole)
@@ -61,7 +67,7 @@ def describe(rows: list[dict], errors: int = 0) -> dict:
 
 def paired_difference(rows: dict[int, dict], base: dict[int, dict], metric: str) -> dict:
     """rows less base, seed by seed, of a metric; only seeds whose both runs came to their end without a fall."""
-    seeds = [s for s in sorted(rows) if s in base and not any(r["fell"] or r["error"] for r in (rows[s], base[s]))]
+    seeds = [s for s in sorted(rows) if s in base and not any(r["fell"] or not counts(r) for r in (rows[s], base[s]))]
     pairs = [(s, bounds.lookup(rows[s], metric), bounds.lookup(base[s], metric)) for s in seeds]
     found = {s: a - b for s, a, b in pairs if a is not None and b is not None}
     mean = statistics.mean_95(list(found.values()))

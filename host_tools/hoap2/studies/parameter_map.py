@@ -113,7 +113,7 @@ def describe(sweeps: list[Sweep], plan: dict, seed_list: list[int], found: colle
     described = [_describe_sweep(each, plan, found) for each in sweeps]
     blocks = [cell[sand.key_of(name)] for each in described for cell in each["cells"] for name in plan["scenarios"]]
     planned, done = len(blocks) * len(seed_list), sum(block["runs"] for block in blocks)
-    ended = {key: row["error"] for key, row in found.summaries.items() if row["error"] is not None}
+    ended = {key: row["error"] for key, row in found.summaries.items() if not groups.counts(row)}
     return {
         "study": "map",
         "scenarios": plan["scenarios"],
@@ -152,11 +152,12 @@ def _write(folder: Path, document: dict, found: collection.Found) -> None:
     for (name, cell, _, _), summary in found.summaries.items():
         rows.append({"sweep": name, "cell": " ".join(cell)} | summary)
     collection.write(folder, "runs.csv", tables.runs_csv(rows))
-    entries = [
-        ({"sweep": each["name"], "scenario": name} | {f"value_{i}": v for i, v in enumerate(cell["values"].values(), 1)},
-         cell[sand.key_of(name)])
-        for each in document["sweeps"] for cell in each["cells"] for name in document["scenarios"]
-    ]  # fmt: skip
+    entries = []
+    for each in document["sweeps"]:
+        for cell in each["cells"]:
+            named = {f"value_{i}": value for i, value in enumerate(cell["values"].values(), 1)}
+            for name in document["scenarios"]:
+                entries.append(({"sweep": each["name"], "scenario": name} | named, cell[sand.key_of(name)]))
     collection.write(folder, "table.csv", tables.groups_csv(entries))
     if rows:
         map_plot.write(folder / "study", document)

@@ -102,7 +102,7 @@ def describe(loaded: dict[str, Scenario], seed_list: list[int], found: collectio
             by_name["floor-walk-lpc"], by_name["floor-walk"], "roll_deg.rms"
         ),
         "errors": {f"{name} seed {seed}": text for (name, seed), text in found.errors.items()}
-        | {f"{n} seed {s}": row["error"] for (n, s), row in found.summaries.items() if row["error"] is not None},
+        | {f"{n} seed {s}": row["error"] for (n, s), row in found.summaries.items() if not groups.counts(row)},
     }
 
 

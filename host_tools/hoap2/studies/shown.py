@@ -9,7 +9,7 @@ PLAIN_WIDTH = 160
 
 
 def _wide(console: Console) -> Console:
-    return console if console.is_terminal else Console(highlight=False, width=PLAIN_WIDTH)
+    return console if console.is_terminal else Console(file=console.file, highlight=False, width=PLAIN_WIDTH)
 
 
 def _number(value: float | None, scale: float = 1.0, digits: int = 2) -> str:
