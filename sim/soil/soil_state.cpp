@@ -12,6 +12,7 @@ constexpr std::uint64_t kSoilMagic = 0x314c494f5350414fULL;
 constexpr double kForceLimit_N = 1e9;
 constexpr double kPressureLimit_Pa = 1e15;
 constexpr double kHighest_m = 20.0;
+constexpr std::int64_t kMostTicks = std::int64_t{1} << 53;
 constexpr double kMostVolume_m3 = 1e4, kTinyVolume_m3 = 1e-9;
 
 struct SoilHead {
@@ -67,7 +68,8 @@ std::string Soil::fault_of_block(const void *from) const {
   const auto head = take<SoilHead>(&bytes);
   if (head.magic != kSoilMagic || head.size != state_bytes())
     return "the block is not the state of this soil";
-  bool is_good = head.tick >= 0 && is_within(head.compacted_m3, -kMostVolume_m3, kMostVolume_m3);
+  bool is_good = head.tick >= 0 && head.tick <= kMostTicks &&
+                 is_within(head.compacted_m3, -kMostVolume_m3, kMostVolume_m3);
   const double deepest_m = field_.depth_m() + kHighest_m;
   for (const double sinkage_m : head.sinkage_m) is_good &= is_within(sinkage_m, -kHighest_m, deepest_m);
   for (std::size_t i = 0; i < field_.size(); ++i) {
@@ -86,9 +88,9 @@ std::string Soil::fault_of_block(const void *from) const {
     const auto memory = take<Flow::Memory>(&bytes);
     const Window &moving = memory.moving;
     is_good &= is_within(memory.pending_m3, -kTinyVolume_m3, kMostVolume_m3);
-    if (!moving.empty()) {
-      is_good &= moving.x0 >= 0 && moving.y0 >= 0 && moving.x1 < field_.nx() && moving.y1 < field_.ny();
-    }
+    const bool is_none = moving.x0 == 0 && moving.y0 == 0 && moving.x1 == -1 && moving.y1 == -1;
+    is_good &= is_none || (!moving.empty() && moving.x0 >= 0 && moving.y0 >= 0 && moving.x1 < field_.nx() &&
+                           moving.y1 < field_.ny());
   }
   return is_good ? "" : "the state of the soil is damaged: it holds values that cannot be";
 }
