@@ -84,7 +84,7 @@ TEST(SoilFlow, RimRisesAroundAFootprint) {
     }
     EXPECT_NEAR(-heave * sunk_m3, raised_m3, 1e-12);
     EXPECT_GT(-sunk_m3, 0.9 * 0.005 * kSole_m2);
-    if (heave > 0.0) EXPECT_GT(highest_m, heave * 0.004);
+    EXPECT_GE(highest_m, heave * 0.004);
     EXPECT_NEAR(0.005, rig.soil.mean_sinkage_m(0), 1e-9);
     EXPECT_EQ(0.0, rig.soil.mean_sinkage_m(1));
     // Lifted: the walls of the rut come down, nothing is lost.
