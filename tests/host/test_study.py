@@ -22,6 +22,7 @@ from hoap2.master import StopRequest
 from hoap2.products import Choice
 from hoap2.studies import collection, groups, light, parameter_map, sand, shown, sweep, tables
 
+FILES = {"study.json", "runs.csv", "table.csv", "study.png", "study.svg", "plan.json", "runs.jsonl"}
 QUIET = Console(file=io.StringIO())
 
 
@@ -39,7 +40,7 @@ def test_fractions_medians_and_directions():
     rows = [row(True, 17), row(True, 19), row(True, 24, "left"), row(pitch=3.0)]
     block = groups.describe(rows)
     assert block["runs"] == 4 and block["errors"] == 0
-    assert block["fell_fraction"] == 0.75 and block["fell_backward_fraction"] == 0.5 and block["survived_fraction"] == 0.25
+    assert (block["fell_fraction"], block["fell_backward_fraction"], block["survived_fraction"]) == (0.75, 0.5, 0.25)
     assert block["wilson_95"]["fell_fraction"] == list(statistics.wilson_95(3, 4))
     assert block["fall_steps"] == [17, 19, 24] and block["median_fall_step"] == 19.0
     assert block["fall_directions"] == {"backward": 2, "left": 1}
@@ -174,8 +175,9 @@ def double(value: int) -> int:
 def test_workers_hand_back_results_and_errors():
     got, beats = {}, []
     with StopRequest() as stop:
-        parallel.run_all(double, {f"k{i}": (i,) for i in range(1, 6)}, 2, stop,
-                         lambda key, result, error: got.update({key: (result, error)}), lambda: beats.append(1))  # fmt: skip
+        tasks = {f"k{i}": (i,) for i in range(1, 6)}
+        finished = lambda key, *outcome: got.update({key: outcome})  # noqa: E731
+        parallel.run_all(double, tasks, 2, stop, finished, lambda: beats.append(1))
     assert got["k2"] == (4, None) and got["k5"] == (10, None) and beats
     assert got["k3"] == (None, "not three") and got["k4"] == (None, "ZeroDivisionError: four")
 
@@ -262,7 +264,8 @@ def test_values_of_an_axis():
     assert sweep.parse("scenario.sensors=ideal, hoap2") == sweep.Axis("scenario.sensors", ("ideal", "hoap2"))
     assert sweep.parse("controller.lpc_gain=[0.3, 0.4],[0.5, 0.6]").values == ("[0.3, 0.4]", "[0.5, 0.6]")
     two = sweep.given(["a.b=1,2", "c.d=x,y"])
-    assert two.cells() == [("1", "x"), ("1", "y"), ("2", "x"), ("2", "y")] and two.overrides(("2", "x")) == ["a.b=2", "c.d=x"]
+    assert two.cells() == [("1", "x"), ("1", "y"), ("2", "x"), ("2", "y")]
+    assert two.overrides(("2", "x")) == ["a.b=2", "c.d=x"]
 
 
 @pytest.mark.parametrize("text", ["a=1", "a.b", "a.b=", "a.b=1:2", "a.b=1:2:1", "a.b=1:1:3", "a.b=1:x:3", "a.b=1,1",
@@ -299,7 +302,7 @@ def test_a_map_counts_each_cell(runs, tmp_path, monkeypatch):
     assert [axis["own"] for axis in found["axes"]] == ["0.4", "hoap2"]
     assert found["axes"][0]["unit"] == "s" and found["cells"][1]["floor_walk"]["survived_fraction"] == 1.0
     folder = tmp_path / "out" / "study-map" / "m"
-    assert {"study.json", "runs.csv", "table.csv", "study.png", "study.svg", "plan.json", "runs.jsonl"} == set(os.listdir(folder))
+    assert set(os.listdir(folder)) == FILES
     more = parameter_map.Wish(resume=folder, seeds="1-4")
     document, _ = parameter_map.run(more, QUIET, show=False)
     assert document["runs_done"] == 16 and document["runs_kept_from_before"] == 12 and len(runs) == 16
@@ -338,7 +341,7 @@ def test_a_whole_short_study(hoap2_cli, tmp_path):
     assert done.returncode == 0, done.stderr
     assert document["runs_done"] == 8 and document["sand_walk"]["survived_fraction"] == 0.0
     folder = tmp_path / "out" / "study-sand" / "s"
-    assert {"study.json", "runs.csv", "table.csv", "study.png", "study.svg", "plan.json", "runs.jsonl"} == set(os.listdir(folder))
+    assert set(os.listdir(folder)) == FILES
     again = hoap2_cli("study", "sand", "--resume", str(folder), cwd=tmp_path, timeout=300)
     assert again.returncode == 0 and "8 runs were there already" in again.stdout, again.stdout + again.stderr
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from fake_walks import BEGIN_TICK, DEG, STEP_TICKS, fall_in_step, log_of_walk
 from hoap2 import metrics, parameters, scenario, seeds, soil_presets
 from hoap2.errors import UserError
+from fake_walks import BEGIN_TICK, DEG, STEP_TICKS, fall_in_step, log_of_walk
 
 
 @pytest.fixture

@@ -22,14 +22,14 @@ def figure(wanted: BookFigure, run: Path | None, seed: int, out: Path | None, fo
     if run is not None and out is None:
         check_target(run, wanted, force)  # before the time for a companion run is spent
     folder = run or _make_run(wanted, seed, console)
+    walk = walk_data.load(folder)
+    book.check(wanted, walk)
     target = out or folder
     try:
         target.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UserError(f"cannot make {target}: {error.strerror}") from None
     check_target(target, wanted, force)
-    walk = walk_data.load(folder)
-    book.check(wanted, walk)
     from hoap2.figures import draw
 
     return draw.write(wanted, walk, _companion(walk) if walk.controls_landing else None, base(target, wanted))

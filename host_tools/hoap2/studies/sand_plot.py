@@ -25,7 +25,7 @@ OUTCOMES = (
 def write(base: Path, document: dict, rows: dict[str, list[dict]]) -> list[Path]:
     """<base>.png and .svg. rows: the summaries of each scenario."""
     with style.drawing(style.WIDTH_IN, 6.6) as figure:
-        grid = figure.add_gridspec(2, 2, left=0.135, right=0.985, top=0.9, bottom=0.07, hspace=0.4, wspace=0.3)
+        grid = figure.add_gridspec(2, 2, left=0.135, right=0.985, top=0.9, bottom=0.08, hspace=0.4, wspace=0.3)
         whole = {name: [row for row in found if groups.counts(row)] for name, found in rows.items()}
         _outcomes(figure.add_subplot(grid[0, 0]), document, whole)
         _fall_steps(figure.add_subplot(grid[0, 1]), whole)
