@@ -44,6 +44,11 @@ def bounds_table(summary: dict) -> Table:
     return table
 
 
+def falls_as_wanted(summary: dict) -> bool:
+    """Whether a fall is what the scenario shows, and all its bounds are met."""
+    return summary["ok"] and summary["bounds"].get("fell", {}).get("min", 0) == 1
+
+
 def show_summary(summary: dict, console: Console) -> None:
     """Verdict, bounds and folder of one run."""
     verdict = "[bold green]ok[/]" if summary["ok"] else "[bold red]not ok[/]"
@@ -53,7 +58,9 @@ def show_summary(summary: dict, console: Console) -> None:
     if summary["error"]:
         notes.append(summary["error"])
     if summary.get("fell"):
-        notes.append(f"fell {summary['fall_direction']} at {summary['fall_time_s']:.2f} s, step {summary['fall_step']}")
+        wanted = "as the chapter: " if falls_as_wanted(summary) else ""
+        when = f"{summary['fall_time_s']:.2f} s, step {summary['fall_step']}"
+        notes.append(f"{wanted}fell {summary['fall_direction']} at {when}")
     if summary.get("faults"):
         notes.append("faults: " + ", ".join(summary["faults"]))
     console.print(f"{summary['scenario']}: {verdict}" + "".join(f"; {note}" for note in notes))

@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 import pytest
+from rich.console import Console
 
-from hoap2 import metrics, parameters, scenario, seeds, soil_presets
+from hoap2 import metrics, parameters, scenario, seeds, soil_presets, tables_shown
 from hoap2.errors import UserError
-from fake_walks import BEGIN_TICK, DEG, STEP_TICKS, fall_in_step, log_of_walk
+from fake_walks import BEGIN_TICK, DEG, STEP_TICKS, fall_in_step, log_of_walk, summary_of
 
 
 @pytest.fixture
@@ -162,3 +163,17 @@ def test_seeds_draw_roughness_on_soil_only():
     given = scenario.load("floor-walk", ["plant.ground=soil", "plant.soil_roughness_m=0.001"])
     seeds.apply(given, 7)
     assert given.values["plant"]["soil_roughness_m"] == (0.001,)
+
+
+def test_a_fall_that_the_scenario_shows_is_ok_and_says_so(capsys):
+    loaded = scenario.load("sand-walk")
+    log = log_of_walk(loaded)
+    log.block("p.true_sinkage_m")[:] = 0.006
+    fall_in_step(log, 18)
+    summary = summary_of(loaded, log)
+    assert summary["ok"], {n: e for n, e in summary["bounds"].items() if not e["ok"]}
+    shown = summary | {"real_time_factor": None, "notes": [], "folder": "there"}
+    tables_shown.show_summary(shown, Console(width=160))
+    assert "sand-walk: ok; as the chapter: fell backward at 8.95 s, step 18" in capsys.readouterr().out
+    log.block("p.true_chest_rpy_rad")[:] = 0.0
+    assert not summary_of(loaded, log)["ok"], "a walk that comes to its end is not what the chapter reports"
