@@ -7,7 +7,7 @@
 #include "../product.h"
 #include "hoap2/generated/signals.h"
 
-#define HOAP2_FMU_TOKEN "{016ae20b-e0a0-aefd-fb15-f99d5ef84058}"
+#define HOAP2_FMU_TOKEN "{bbbd8bd9-0b1a-4f84-7a99-8dcf305e8117}"
 enum { HOAP2_FMU_FIELDS = 90, HOAP2_FMU_ELEMENTS = 398 };
 
 /* name, group, kind, tunable, FMI 2 value reference of the first element, elements, offset, range */

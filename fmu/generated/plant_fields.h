@@ -7,7 +7,7 @@
 #include "../product.h"
 #include "hoap2_plant/generated/plant_signals.h"
 
-#define HOAP2_FMU_TOKEN "{b47e9942-6da1-fbae-70d8-3f85be39d019}"
+#define HOAP2_FMU_TOKEN "{9da79ca2-6f72-7c84-f9a1-91957f846a94}"
 enum { HOAP2_FMU_FIELDS = 85, HOAP2_FMU_ELEMENTS = 599 };
 
 /* name, group, kind, tunable, FMI 2 value reference of the first element, elements, offset, range */

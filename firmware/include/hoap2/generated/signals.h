@@ -178,7 +178,7 @@ static inline void hoap2_params_defaults(hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_filter_s)[i_] = 0.05;
   { static const double v_[2] = {0.002, 0.006};
     for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->lpc_threshold_m)[i_] = v_[i_]; }
-  for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->lpc_gain)[i_] = 0.45;
+  for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->lpc_gain)[i_] = 0.2;
   for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->lpc_forget)[i_] = 0.7;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->lpc_limit_m)[i_] = 0.04;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->lpc_min_spacing_m)[i_] = 0.068;

@@ -143,17 +143,17 @@ static inline void hoap2_plant_params_defaults(hoap2_plant_params_t *p) {
     for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->soil_centre_m)[i_] = v_[i_]; }
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_cell_m)[i_] = 0.005;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_kc_N_m_n1)[i_] = 0.0;
-  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_kphi_N_m_n2)[i_] = 6000000.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_kphi_N_m_n2)[i_] = 6400000.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_n)[i_] = 1.1;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_cohesion_Pa)[i_] = 200.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_friction_rad)[i_] = 0.5235987755982988;
-  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_shear_m)[i_] = 0.008;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_shear_m)[i_] = 0.004;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_unload_Pa_m)[i_] = 100000000.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_unload_Pa_m2)[i_] = 0.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_damping_Pas_m)[i_] = 40000.0;
-  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_heave)[i_] = 0.25;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_heave)[i_] = 0.1;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_repose_rad)[i_] = 0.5585053606381855;
-  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_edge_loss)[i_] = 0.3;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_edge_loss)[i_] = 0.4;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_edge_m)[i_] = 0.01;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_rft_zeta)[i_] = 1.4;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_roughness_m)[i_] = 0.0;
