@@ -10,6 +10,9 @@ from PIL import Image, ImageDraw, ImageFont
 # The colours of sim/render/marks.cpp.
 COM, COM_DARK, COP, CP = (250, 199, 20), (26, 26, 31), (219, 31, 36), (5, 158, 92)
 RIGHT, LEFT, PUSH = (232, 107, 26), (26, 102, 219), (184, 26, 148)
+# Of sim/render/passes.cpp: full sinkage, half, untouched, half raised, fully raised; the rise has half the scale.
+SOIL = ((24, 50, 100), (92, 122, 152), (205, 180, 138), (232, 214, 176), (255, 246, 222))
+SOIL_RISE_SHARE = 0.5
 INK, PANEL = (32, 38, 46, 255), (255, 255, 255, 190)
 
 
@@ -40,9 +43,17 @@ def _symbol(draw: ImageDraw.ImageDraw, kind: str, x: float, y: float, r: float) 
 LEGEND = (("com", "CoM"), ("cop", "CoP"), ("cp", "capture point"), ("right", "right foot"), ("left", "left foot"))
 
 
+def _panel(image: Image.Image, scale: int) -> tuple[np.ndarray, np.ndarray]:
+    """An image drawn `scale` times too large as premultiplied colours and the share of the picture that stays."""
+    image = image.resize((image.width // scale, image.height // scale), Image.Resampling.BOX)
+    data = np.asarray(image, dtype=np.float32)
+    alpha = data[:, :, 3:] / 255.0
+    return data[:, :, :3] * alpha, 1.0 - alpha
+
+
 @lru_cache(maxsize=16)
 def _legend(text_px: int, with_push: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Premultiplied colours and the share of the picture that stays."""
+    """Marks and their names."""
     scale = 4  # drawn large and shrunk: Pillow does not smooth shapes
     font = _font(text_px * scale)
     entries = LEGEND + ((("push", "push"),) if with_push else ())
@@ -58,10 +69,7 @@ def _legend(text_px: int, with_push: bool) -> tuple[np.ndarray, np.ndarray]:
         _symbol(draw, kind, x + 0.45 * symbol, 0.5 * height, 0.5 * text_px * scale)
         draw.text((x + symbol, 0.5 * height), text, fill=INK, font=font, anchor="lm")
         x += symbol + font.getlength(text) + gap
-    image = image.resize((size[0] // scale, size[1] // scale), Image.Resampling.BOX)
-    data = np.asarray(image, dtype=np.float32)
-    alpha = data[:, :, 3:] / 255.0
-    return data[:, :, :3] * alpha, 1.0 - alpha
+    return _panel(image, scale)
 
 
 def _paste(rgb: np.ndarray, panel: tuple[np.ndarray, np.ndarray], left: int, top: int) -> None:
@@ -80,9 +88,7 @@ def _text_panel(text: str, text_px: int) -> tuple[np.ndarray, np.ndarray]:
     draw = ImageDraw.Draw(image)
     draw.rounded_rectangle((0, 0, width - 1, height - 1), 0.45 * text_px, fill=PANEL)
     draw.text((0.7 * text_px, 0.5 * height), text, fill=INK, font=font, anchor="lm")
-    data = np.asarray(image, dtype=np.float32)
-    alpha = data[:, :, 3:] / 255.0
-    return data[:, :, :3] * alpha, 1.0 - alpha
+    return _panel(image, 1)
 
 
 def text_size_px(rgb: np.ndarray) -> int:
@@ -103,3 +109,36 @@ def legend(rgb: np.ndarray, with_push: bool = False) -> None:
     if panel[0].shape[1] + size > rgb.shape[1]:
         return
     _paste(rgb, panel, round(0.8 * size), rgb.shape[0] - panel[0].shape[0] - round(0.8 * size))
+
+
+@lru_cache(maxsize=16)
+def _sinkage_panel(text_px: int, full_scale_m: float) -> tuple[np.ndarray, np.ndarray]:
+    """A bar of the soil's colours with millimetres below it."""
+    scale = 4
+    px = text_px * scale
+    ink = {"fill": INK, "font": _font(px)}
+    length, full_mm = 11.0 * px, 1e3 * full_scale_m
+    size = (scale * round((length + 2.6 * px) / scale), scale * round(3.9 * px / scale))
+    image = Image.new("RGBA", size, (0, 0, 0, 0))
+    draw = ImageDraw.Draw(image, "RGBA")
+    draw.rounded_rectangle((0, 0, size[0] - 1, size[1] - 1), 0.5 * px, fill=PANEL)
+    left = 0.5 * (size[0] - length)
+    draw.text((left, 0.95 * px), "sunk (mm)", anchor="lm", **ink)
+    draw.text((left + length, 0.95 * px), "raised", anchor="rm", **ink)
+    place = np.linspace(0.0, len(SOIL) - 1.0, round(length))
+    colours = np.stack([np.interp(place, range(len(SOIL)), channel) for channel in zip(*SOIL)], axis=1)
+    bar = np.broadcast_to(np.round(colours).astype(np.uint8), (round(0.8 * px), len(place), 3))
+    image.paste(Image.fromarray(np.ascontiguousarray(bar)), (round(left), round(1.7 * px)))
+    for k, share in enumerate((1.0, 0.5, 0.0, 0.5 * SOIL_RISE_SHARE, SOIL_RISE_SHARE)):
+        text = f"{'+' if k > 2 else ''}{share * full_mm:g}"
+        draw.text((left + 0.25 * k * length, 3.1 * px), text, anchor="mm", **ink)
+    return _panel(image, scale)
+
+
+def sinkage_scale(rgb: np.ndarray, full_scale_m: float) -> None:
+    """The meaning of the soil's colours, in the top right corner, in place; left out where it does not fit."""
+    size = text_size_px(rgb)
+    panel = _sinkage_panel(size, full_scale_m)
+    if panel[0].shape[1] + 22 * size > rgb.shape[1]:  # the caption stands on the left
+        return
+    _paste(rgb, panel, rgb.shape[1] - panel[0].shape[1] - round(0.8 * size), round(0.8 * size))

@@ -15,7 +15,7 @@ import numpy as np
 from PIL import Image
 
 from hoap2 import picture_labels as labels
-from hoap2 import recording, renderer, video_file
+from hoap2 import recording, renderer, soil_replay, video_file
 from hoap2.errors import UserError
 from hoap2.recording import Recording
 from hoap2.renderer import Renderer, Scene
@@ -23,6 +23,8 @@ from hoap2.renderer import Renderer, Scene
 __all__ = ["VIEWS", "Renderer", "Scene", "parse_size", "scene_from_run", "strip", "write_frame", "write_video"]
 
 DISTANCE_M = 1.3
+FEET_OVER_FLOOR_M = 0.025
+POOL_MARGIN = 1.12
 FOLLOW_S = 0.6  # width of the smoothing of the camera's way
 TARGET_OVER_HIPS_M = 0.015
 SUPERSAMPLING_UP_TO_PX = 2048
@@ -30,11 +32,12 @@ SUPERSAMPLING_UP_TO_PX = 2048
 
 @dataclass(frozen=True)
 class View:
-    """Where the camera stands relative to the heading at the start."""
+    """Where the camera stands relative to the heading at the start, and what it looks at: hips, feet or pool."""
 
     azimuth_rad: float
     elevation_rad: float
     distance_m: float = DISTANCE_M
+    target: str = "hips"
 
 
 VIEWS = {
@@ -43,6 +46,8 @@ VIEWS = {
     "front": View(0.0, math.radians(6)),
     "back": View(math.radians(155), math.radians(13)),
     "top": View(math.radians(-90), math.radians(86), 1.6),
+    "feet": View(math.radians(-58), math.radians(22), 0.62, "feet"),
+    "pool": View(math.radians(-90), math.radians(88), 0.0, "pool"),  # as far away as it takes
 }
 
 
@@ -89,10 +94,38 @@ def _set_terrain(scene: Scene, run: Recording) -> None:
     scene.block_count = count
 
 
+def _floor_height_m(run: Recording, x_W_m: float, y_W_m: float) -> float:
+    """Of the tilted floor (Rx(tilt x) Ry(tilt y) through the start point) in the world."""
+    about_x, about_y = run.plant.get("floor_tilt_rad", [0.0, 0.0])
+    start = run.plant.get("start_pos_W_m", [0.0, 0.0])
+    return (math.sin(about_x) * (y_W_m - start[1]) - math.tan(about_y) * (x_W_m - start[0])) / math.cos(about_x)
+
+
+def _aim(scene: Scene, run: Recording, seen: View, hips_W_m: np.ndarray, aspect: float) -> None:
+    """Point the camera. hips_W_m: the smoothed point that it follows; aspect: width by height of the picture."""
+    scene.camera_azimuth_rad = seen.azimuth_rad + float(run.plant.get("start_yaw_W_rad", 0.0))
+    scene.camera_elevation_rad, scene.camera_distance_m = seen.elevation_rad, seen.distance_m
+    scene.camera_target_W_m = hips_W_m
+    if seen.target == "feet":
+        scene.camera_target_W_m[2] = _floor_height_m(run, *hips_W_m[:2]) + FEET_OVER_FLOOR_M
+    elif seen.target == "pool":
+        x_m, y_m = run.plant["soil_centre_m"]
+        yaw = float(run.plant.get("start_yaw_W_rad", 0.0))
+        start = run.plant.get("start_pos_W_m", [0.0, 0.0])
+        place = (start[0] + math.cos(yaw) * x_m - math.sin(yaw) * y_m,
+                 start[1] + math.sin(yaw) * x_m + math.cos(yaw) * y_m)  # fmt: skip
+        scene.camera_target_W_m = (*place, _floor_height_m(run, *place))
+        length_m, width_m, _ = run.plant["soil_size_m"]
+        tall_m = POOL_MARGIN * max(width_m, length_m / aspect)
+        scene.camera_distance_m = 0.5 * tall_m / math.tan(0.5 * renderer.FOV_Y_RAD)
+
+
 def scene_from_run(table_row: int, run: Recording, view: str = "quarter", target_W_m=None,
-                   overlays: bool = True) -> Scene:  # fmt: skip
-    """The scene at one row of a recording (`Recording.row(t_s)` finds it)."""
+                   overlays: bool = True, aspect: float = 16 / 9) -> Scene:  # fmt: skip
+    """The scene at one row of a recording (`Recording.row(t_s)` finds it), without its soil."""
     seen = _view(view)
+    if seen.target == "pool" and not run.on_soil:
+        raise UserError(f"view '{view}' shows the pool of a run on soil; this run has a rigid floor")
     scene = Scene()
     scene.base_pos_W_m = run.values("true_base_pos_W_m", table_row)
     scene.base_quat_W = run.values("true_base_quat_W", table_row)
@@ -110,9 +143,7 @@ def scene_from_run(table_row: int, run: Recording, view: str = "quarter", target
         pose = scene.link_pose(link)
         scene.push_force_W_N = run.values("true_push_force_W_N", table_row)
         scene.push_point_W_m = pose[:, :3] @ point_L_m + pose[:, 3]
-    scene.camera_target_W_m = camera_targets(run)[table_row] if target_W_m is None else target_W_m
-    scene.camera_azimuth_rad = seen.azimuth_rad + float(run.plant.get("start_yaw_W_rad", 0.0))
-    scene.camera_elevation_rad, scene.camera_distance_m = seen.elevation_rad, seen.distance_m
+    _aim(scene, run, seen, camera_targets(run)[table_row] if target_W_m is None else target_W_m, aspect)
     if not overlays:
         scene.show = renderer.SHOW_PUSH | renderer.SHOW_SHADOW
     return scene
@@ -128,15 +159,29 @@ def _caption(run: Recording, row: int) -> str:
     return f"{text}   step {int(step[0])}" if step is not None and step[0] > 0 else text
 
 
-def _stills(scenes: Iterable[Scene], width: int, height: int) -> Iterator[np.ndarray]:
+def _stills(run: Recording, rows: Iterable[int], view: str, overlays: bool,
+            size: tuple[int, int]) -> Iterator[np.ndarray]:  # fmt: skip
     """Pictures with smooth edges: four samples a pixel, at twice the size where that is possible."""
+    width, height = size
     factor = 2 if max(width, height) <= SUPERSAMPLING_UP_TO_PX else 1
-    with Renderer(width * factor, height * factor, samples=4) as camera:  # one for all: it takes longer than a picture
-        for scene in scenes:
-            picture = camera.draw(scene)
+    targets, soil = camera_targets(run), soil_replay.of_run(run)
+    # One camera for all: it takes longer than a picture.
+    with Renderer(width * factor, height * factor, samples=4) as camera:
+        for row in rows:
+            if soil is not None:
+                soil.show(camera, row)
+            picture = camera.draw(scene_from_run(row, run, view, targets[row], overlays, width / height))
             if factor != 1:
                 picture = np.array(Image.fromarray(picture).resize((width, height), Image.Resampling.BOX))
             yield picture
+
+
+def _write_on(picture: np.ndarray, run: Recording, row: int) -> None:
+    """Time, legend of the marks, and of the colours of the soil."""
+    labels.caption(picture, _caption(run, row))
+    labels.legend(picture, _has_push(run))
+    if run.on_soil:
+        labels.sinkage_scale(picture, soil_replay.full_scale_m(run))
 
 
 def _check_target(path: Path, suffixes: tuple[str, ...], overwrite: bool) -> Path:
@@ -169,10 +214,9 @@ def write_frame(run: Recording | str | Path, t_s: float, path: str | Path, size:
     path = _check_target(Path(path), (".png", ".jpg", ".webp"), overwrite)
     run = _load(run)
     row = run.row(t_s)
-    (picture,) = _stills([scene_from_run(row, run, view, overlays=overlays)], *size)
+    (picture,) = _stills(run, [row], view, overlays, size)
     if overlays:
-        labels.caption(picture, _caption(run, row))
-        labels.legend(picture, _has_push(run))
+        _write_on(picture, run, row)
     return _save(picture, path)
 
 
@@ -183,8 +227,8 @@ def strip(run: Recording | str | Path, times: list[float], path: str | Path, siz
     if not times:
         raise UserError("a strip needs at least one time")
     run = _load(run)
-    rows, targets = [run.row(t) for t in times], camera_targets(run)
-    pictures = list(_stills((scene_from_run(row, run, view, targets[row], overlays) for row in rows), *size))
+    rows = [run.row(t) for t in times]
+    pictures = list(_stills(run, rows, view, overlays, size))
     for row, picture in zip(rows, pictures):
         labels.caption(picture, f"{run.t_s[row]:.2f} s")
     gap = np.full((size[1], 2, 3), 255, dtype=np.uint8)
@@ -195,13 +239,14 @@ def strip(run: Recording | str | Path, times: list[float], path: str | Path, siz
 def _feed(run: Recording, rows: list[int], size: tuple[int, int], view: str, samples: int, out: video_file.VideoFile,
           progress: Callable[[int, int], object] | None) -> bool:  # fmt: skip
     """Draw the rows into the encoder; False when progress asked to stop (it returned False)."""
-    targets, with_push = camera_targets(run), _has_push(run)
+    targets, soil = camera_targets(run), soil_replay.of_run(run)
     with Renderer(*size, samples=samples) as camera:
         picture = np.empty((size[1], size[0], 3), dtype=np.uint8)
         for done, row in enumerate(rows):
-            camera.draw(scene_from_run(row, run, view, targets[row]), picture)
-            labels.caption(picture, _caption(run, row))
-            labels.legend(picture, with_push)
+            if soil is not None:
+                soil.show(camera, row)
+            camera.draw(scene_from_run(row, run, view, targets[row], aspect=size[0] / size[1]), picture)
+            _write_on(picture, run, row)
             out.write(picture)
             if progress is not None and progress(done + 1, len(rows)) is False:
                 return False

@@ -20,6 +20,7 @@ from hoap2.signal_log import SignalLog
 RIGHT, LEFT = 0, 1
 _NEEDED = ("true_base_pos_W_m", "true_base_quat_W", "true_q_rad", "true_com_W_m", "true_cop_W_m",
            "true_push_force_W_N", "true_foot_pos_W_m", "true_foot_yaw_W_rad")  # fmt: skip
+_PLANT = ("true_sinkage_m",)  # not in the logs of earlier versions
 _CONTROLLER = ("cp_est_W_m", "footprint_W_m_rad", "step_index", "stance_foot")
 
 
@@ -44,6 +45,11 @@ class Recording:
     plant: dict = field(default_factory=dict)
     name: str = ""
     steps: list[Step] = field(default_factory=list)
+
+    @property
+    def on_soil(self) -> bool:
+        """Whether the ground is a pool of soil."""
+        return self.plant.get("ground") in ("soil", 1)
 
     @property
     def end_s(self) -> float:
@@ -106,7 +112,8 @@ def _columns(product: str, names: tuple[str, ...]) -> dict[str, list[str]]:
 
 
 def _read_signals(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    needed, optional = _columns("plant", _NEEDED), _columns("controller", _CONTROLLER)
+    needed = _columns("plant", _NEEDED)
+    optional = _columns("plant", _PLANT) | _columns("controller", _CONTROLLER)
     try:
         have = set(pyarrow.parquet.read_schema(path).names)
         missing = [c for columns in needed.values() for c in columns if c not in have]
@@ -141,7 +148,7 @@ def load(folder: str | Path) -> Recording:
 def of_log(folder: Path, log: SignalLog, scenario: Scenario) -> Recording:
     """The recording of a run that is still in memory; `folder` is where it is going to be."""
     signal = {}
-    for prefix, names in (("p.", _NEEDED), ("c.", _CONTROLLER)):
+    for prefix, names in (("p.", _NEEDED), ("p.", _PLANT), ("c.", _CONTROLLER)):
         for name in names:
             block = log.block(prefix + name)
             if block is None and names is _NEEDED:

@@ -15,8 +15,8 @@ from hoap2.errors import UserError
 
 MAX_FOOTPRINTS, MAX_BLOCKS, JOINTS, LINKS = 128, 16, 25, 26
 FOV_Y_RAD = 0.5
-SHOW_COM, SHOW_COP, SHOW_CP, SHOW_FOOTPRINTS, SHOW_PUSH, SHOW_SHADOW = 1, 2, 4, 8, 16, 32
-SHOW_ALL = 63
+SHOW_COM, SHOW_COP, SHOW_CP, SHOW_FOOTPRINTS, SHOW_PUSH, SHOW_SHADOW, SHOW_SINKAGE = 1, 2, 4, 8, 16, 32, 64
+SHOW_ALL = 127
 
 _REALS = [
     ("base_pos_W_m", (3,)), ("base_quat_W", (4,)), ("q_rad", (JOINTS,)), ("com_W_m", (3,)), ("cop_W_m", (2,)),
@@ -31,6 +31,13 @@ SCENE_DTYPE = np.dtype(
     [(name, np.float64, shape) for name, shape in _REALS] + [(name, np.int32, shape) for name, shape in _INTS],
     align=True,
 )
+
+# hoap2_soil_grid_t: place and size of a pool of soil.
+GRID_DTYPE = np.dtype(
+    [("origin_W_m", np.float64, (3,)), ("axes_W", np.float64, (3, 3)), ("low_x_m", np.float64),
+     ("low_y_m", np.float64), ("cell_m", np.float64), ("depth_m", np.float64), ("nx", np.int32), ("ny", np.int32)],
+    align=True,
+)  # fmt: skip
 
 
 class Scene:
@@ -106,11 +113,27 @@ def library() -> ctypes.CDLL:
     lib.hoap2_render_project.argtypes = [pointer, pointer, pointer, pointer]
     lib.hoap2_render_link_pose.argtypes = [pointer, real, pointer]
     lib.hoap2_render_error.restype, lib.hoap2_render_error.argtypes = ctypes.c_char_p, [pointer]
+    lib.hoap2_render_set_soil.argtypes = [pointer, pointer, pointer, pointer, ctypes.c_double]
     lib.hoap2_render_scene_size.restype = ctypes.c_size_t
-    if lib.hoap2_render_scene_size() != SCENE_DTYPE.itemsize:
+    _declare_replay(lib)
+    sizes = (lib.hoap2_render_scene_size(), lib.hoap2_soil_replay_grid_size())
+    if sizes != (SCENE_DTYPE.itemsize, GRID_DTYPE.itemsize):
         raise UserError(f"{path} is of another version than these tools", "build it again: ./hoap2 fmu build",
                         exit_code=3)  # fmt: skip
     return lib
+
+
+def _declare_replay(lib: ctypes.CDLL) -> None:
+    """Types of sim/include/hoap2_render/soil_replay.h."""
+    pointer = ctypes.c_void_p
+    lib.hoap2_soil_replay_create.restype, lib.hoap2_soil_replay_create.argtypes = pointer, [pointer]
+    lib.hoap2_soil_replay_destroy.restype, lib.hoap2_soil_replay_destroy.argtypes = None, [pointer]
+    lib.hoap2_soil_replay_restart.restype, lib.hoap2_soil_replay_restart.argtypes = None, [pointer]
+    lib.hoap2_soil_replay_advance.argtypes = [pointer, ctypes.c_int64, pointer, pointer, pointer]
+    lib.hoap2_soil_replay_grid.restype, lib.hoap2_soil_replay_grid.argtypes = None, [pointer, pointer]
+    lib.hoap2_soil_replay_surface.restype, lib.hoap2_soil_replay_surface.argtypes = None, [pointer] * 3
+    lib.hoap2_soil_replay_error.restype, lib.hoap2_soil_replay_error.argtypes = ctypes.c_char_p, [pointer]
+    lib.hoap2_soil_replay_params_size.restype = lib.hoap2_soil_replay_grid_size.restype = ctypes.c_size_t
 
 
 class Renderer:
@@ -133,6 +156,18 @@ class Renderer:
         if self._lib.hoap2_render_draw(self._open(), scene.pointer, rgb.ctypes.data_as(ctypes.c_void_p)) != 0:
             raise UserError(f"no picture: {self._lib.hoap2_render_error(self._handle).decode()}")
         return rgb
+
+    def set_soil(self, grid: np.ndarray | None, height_m=None, change_m=None, full_scale_m: float = 0.01) -> None:
+        """The soil of the next pictures (see hoap2_render_set_soil); None: none."""
+        if grid is None:
+            self._lib.hoap2_render_set_soil(self._open(), None, None, None, 1.0)
+            return
+        fields = [np.ascontiguousarray(field, dtype=np.float32) for field in (height_m, change_m)]
+        if any(field.shape != (int(grid["ny"]), int(grid["nx"])) for field in fields):
+            raise ValueError(f"height_m and change_m must have {grid['ny']} rows of {grid['nx']} cells")
+        if self._lib.hoap2_render_set_soil(self._open(), grid.ctypes.data, fields[0].ctypes.data,
+                                           fields[1].ctypes.data, full_scale_m) != 0:  # fmt: skip
+            raise UserError(f"no picture: {self._lib.hoap2_render_error(self._handle).decode()}")
 
     def project(self, scene: Scene, point_W_m) -> tuple[float, float, float] | None:
         """Column and row (pixels from the top left) and depth (m) of a point; None behind the camera."""

@@ -7,6 +7,9 @@
 namespace hoap2 {
 namespace {
 
+// A mark on the soil lies as high as the highest soil this near.
+constexpr float kMarkReach_m = 0.008F;
+
 constexpr float kPi = 3.14159265358979F;
 
 // The same colours stand in the legend of host_tools/hoap2/pictures.py.
@@ -51,7 +54,7 @@ void disc(Marks &marks, const Plane &plane, float inner_m, float outer_m, Colour
 }
 
 // Sole with rounded corners: a thin fill and an outline that runs just inside the edge.
-void footprint(Marks &marks, const Plane &plane, Colour colour, float alpha) {
+void footprint(Marks &marks, const Plane &plane, Colour colour, float alpha, float fill) {
   constexpr int kArc = 4;
   constexpr float kCorner = 0.012F;
   constexpr float kOutline = 0.0024F;
@@ -77,7 +80,7 @@ void footprint(Marks &marks, const Plane &plane, Colour colour, float alpha) {
   const Vec3 middle = plane.at(0.5F * (toe + heel), 0.0F);
   for (size_t i = 0; i < outer.size(); ++i) {
     const size_t k = (i + 1) % outer.size();
-    triangle(marks, middle, inner[i], inner[k], plane.n, faded(colour, 0.20F * alpha));
+    triangle(marks, middle, inner[i], inner[k], plane.n, faded(colour, fill * alpha));
     triangle(marks, inner[i], outer[i], outer[k], plane.n, faded(colour, alpha));
     triangle(marks, inner[i], outer[k], inner[k], plane.n, faded(colour, alpha));
   }
@@ -136,13 +139,14 @@ bool finite(const double *values, int count) {
 // Plane of the ground at x, y: the floor's, or level on top of a block.
 Plane plane_on(const Ground &ground, Vec3 p, float yaw, float lift_m) {
   const Vec3 top = ground.point(p.x, p.y);
-  const bool on_floor = top.z <= ground.floor_point(p.x, p.y).z;
+  const bool on_floor = ground.is_soil() || top.z <= ground.floor_point(p.x, p.y).z;
   return plane_at(top, on_floor ? ground.normal() : Vec3{0.0F, 0.0F, 1.0F}, yaw, lift_m);
 }
 
 }  // namespace
 
-Ground::Ground(const hoap2_scene_t &scene, const std::array<double, 3> &origin_W_m) {
+Ground::Ground(const hoap2_scene_t &scene, const std::array<double, 3> &origin_W_m, const SoilSurface &soil)
+    : soil_(soil), pool_(soil.pose(origin_W_m)) {
   through_ = local(scene.floor_origin_W_m, origin_W_m, 3);
   const auto about_x = static_cast<float>(scene.floor_tilt_rad[0]);
   const auto about_y = static_cast<float>(scene.floor_tilt_rad[1]);
@@ -171,7 +175,24 @@ Vec3 Ground::point(float x, float y) const {
     const bool above = std::abs(c * dx + s * dy) <= block.half.x && std::abs(c * dy - s * dx) <= block.half.y;
     if (above) p.z = std::max(p.z, block.centre.z + block.half.z);
   }
+  const Vec3 place = soil_.exists() ? pool_place(p) : Vec3{};
+  if (soil_.is_inside(place.x, place.y)) p.z += soil_.height_m(place.x, place.y, kMarkReach_m) / normal_.z;
   return p;
+}
+
+Vec3 Ground::pool_point(Vec3 p_P_m) const {
+  Vec3 p;
+  for (size_t k = 0; k < 3; ++k) {
+    const float *const row = pool_.data() + 4 * k;
+    (k == 0 ? p.x : (k == 1 ? p.y : p.z)) = dot({row[0], row[1], row[2]}, p_P_m) + row[3];
+  }
+  return p;
+}
+
+Vec3 Ground::pool_place(Vec3 p) const {
+  const Vec3 arm = p - Vec3{pool_[3], pool_[7], pool_[11]};
+  return {dot({pool_[0], pool_[4], pool_[8]}, arm), dot({pool_[1], pool_[5], pool_[9]}, arm),
+          dot({pool_[2], pool_[6], pool_[10]}, arm)};
 }
 
 Marks footprint_marks(const hoap2_scene_t &scene, const Ground &ground,
@@ -181,11 +202,16 @@ Marks footprint_marks(const hoap2_scene_t &scene, const Ground &ground,
   for (int i = 0; i < scene.footprint_count; ++i) {
     const double *print_W = scene.footprint_W_m_rad[i];
     if (!finite(print_W, 3)) continue;
-    const Plane plane =
-        plane_on(ground, local(print_W, origin_W_m, 2), static_cast<float>(print_W[2]), 0.0003F);
+    const Vec3 place = local(print_W, origin_W_m, 2);
+    const auto yaw = static_cast<float>(print_W[2]);
+    const Plane plane = ground.is_soil()
+                            ? plane_at(ground.floor_point(place.x, place.y), ground.normal(), yaw, 0.0F)
+                            : plane_on(ground, place, yaw, 0.0003F);
     const int age = scene.footprint_count - 1 - i;
     const float alpha = std::max(0.45F, 1.0F - 0.06F * static_cast<float>(age));
-    footprint(marks, plane, scene.footprint_left[i] != 0 ? kLeft : kRight, alpha);
+    // On soil without a fill: it would blend with the colours of the sinkage.
+    footprint(marks, plane, scene.footprint_left[i] != 0 ? kLeft : kRight, alpha,
+              ground.is_soil() ? 0.0F : 0.20F);
   }
   return marks;
 }

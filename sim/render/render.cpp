@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "kinematics.h"
+#include "passes.h"
+#include "soil_surface.h"
 #include "stage.h"
 #include "view.h"
 
 struct hoap2_render {
   std::unique_ptr<hoap2::Stage> stage;
+  hoap2::SoilSurface soil;
   std::vector<uint8_t> rows_bottom_up;
   std::string error;
 };
@@ -23,8 +26,8 @@ using namespace hoap2;
 
 thread_local std::string g_create_error;  // there is no renderer yet that could hold it
 
-// 26 links and one pose at rest for what does not move (blocks).
-std::vector<float> pose_table(const hoap2_scene_t &scene, const View &view) {
+// 26 links, one pose at rest for what does not move (blocks), the pool of soil.
+std::vector<float> pose_table(const hoap2_scene_t &scene, const View &view, const SoilSurface &soil) {
   std::vector<float> table;
   for (const Pose &pose : link_poses(scene)) {
     for (size_t row = 0; row < 3; ++row) {
@@ -33,6 +36,8 @@ std::vector<float> pose_table(const hoap2_scene_t &scene, const View &view) {
     }
   }
   table.insert(table.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+  const std::array<float, 12> pool = soil.pose(view.origin_W_m);
+  table.insert(table.end(), pool.begin(), pool.end());
   return table;
 }
 
@@ -40,7 +45,7 @@ Mesh block_mesh(const hoap2_scene_t &scene, const View &view) {
   Mesh mesh;
   for (int i = 0; i < scene.block_count; ++i) {
     Placement at;
-    at.link = HOAP2_LINKS;
+    at.link = kRestPose;
     at.material = {{0.50F, 0.44F, 0.35F}, 0.1F};
     const double *c = scene.block_centre_W_m[i];
     at.centre = {static_cast<float>(c[0] - view.origin_W_m[0]), static_cast<float>(c[1] - view.origin_W_m[1]),
@@ -54,100 +59,41 @@ Mesh block_mesh(const hoap2_scene_t &scene, const View &view) {
   return mesh;
 }
 
+void add_rectangle(std::vector<Vec3> &points, Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  points.insert(points.end(), {a, b, c, a, c, d});
+}
+
 std::vector<Vec3> floor_corners(const View &view, const Ground &ground) {
   const float r = 1.6F * view.fade_m;
   const float x = view.eye.x, y = view.eye.y;
-  const Vec3 a = ground.floor_point(x - r, y - r), b = ground.floor_point(x + r, y - r);
-  const Vec3 c = ground.floor_point(x + r, y + r), d = ground.floor_point(x - r, y + r);
-  return {a, b, c, a, c, d};
+  std::vector<Vec3> points;
+  add_rectangle(points, ground.floor_point(x - r, y - r), ground.floor_point(x + r, y - r),
+                ground.floor_point(x + r, y + r), ground.floor_point(x - r, y + r));
+  return points;
 }
 
-void set(const Gl &gl, GLint location, Vec3 v) { gl.Uniform3f(location, v.x, v.y, v.z); }
-
-void set_light(const Gl &gl, const Program &program, const View &view, bool shadow_on) {
-  gl.UseProgram(program.id);
-  gl.UniformMatrix4fv(program.at(gl, "u_camera"), 1, GL_FALSE, view.camera.m.data());
-  gl.UniformMatrix4fv(program.at(gl, "u_shadow"), 1, GL_FALSE, view.shadow_map.m.data());
-  set(gl, program.at(gl, "u_eye"), view.eye);
-  set(gl, program.at(gl, "u_light"), view.light);
-  gl.Uniform1i(program.at(gl, "u_shadow_map"), 0);
-  gl.Uniform1f(program.at(gl, "u_shadow_on"), shadow_on ? 1.0F : 0.0F);
-}
-
-void set_poses(const Gl &gl, const Program &program, const std::vector<float> &poses) {
-  gl.Uniform4fv(program.at(gl, "u_pose"), static_cast<GLsizei>(poses.size() / 4), poses.data());
-}
-
-void draw_shadow(const Stage &stage, const View &view, const std::vector<float> &poses) {
-  const Gl &gl = stage.context.gl();
-  gl.BindFramebuffer(GL_FRAMEBUFFER, stage.shadow_buffer);
-  gl.Viewport(0, 0, kShadowSide_px, kShadowSide_px);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
-  gl.Enable(GL_DEPTH_CLAMP);
-  gl.UseProgram(stage.shadow.id);
-  gl.UniformMatrix4fv(stage.shadow.at(gl, "u_camera"), 1, GL_FALSE, view.shadow_clip.m.data());
-  set_poses(gl, stage.shadow, poses);
-  stage.draw(stage.robot_shadow);
-  stage.draw(stage.blocks);
-  gl.Disable(GL_DEPTH_CLAMP);
-}
-
-void draw_solids(const Stage &stage, const View &view, const Ground &ground, const std::vector<float> &poses,
-                 bool shadow_on) {
-  const Gl &gl = stage.context.gl();
-  gl.BindTexture(GL_TEXTURE_2D, stage.shadow_map);
-  set_light(gl, stage.solid, view, shadow_on);
-  const Vec3 n = ground.normal();
-  const float plane[4] = {n.x, n.y, n.z, -dot(n, ground.floor_point(0.0F, 0.0F))};
-  gl.Uniform4fv(stage.solid.at(gl, "u_floor"), 1, plane);
-  set_poses(gl, stage.solid, poses);
-  stage.draw(stage.robot);
-  stage.draw(stage.blocks);
-
-  set_light(gl, stage.floor, view, shadow_on);
-  set(gl, stage.floor.at(gl, "u_floor_normal"), n);
-  gl.Uniform1f(stage.floor.at(gl, "u_fade_m"), view.fade_m);
-  stage.draw(stage.floor_quad);
-}
-
-void draw_sky(const Stage &stage, const View &view) {
-  const Gl &gl = stage.context.gl();
-  const Vec3 forward = unit(view.target - view.eye);
-  const float level = std::sqrt(std::max(0.0F, 1.0F - forward.z * forward.z));
-  const float half = std::tan(0.5F * static_cast<float>(HOAP2_RENDER_FOV_Y_RAD));
-  gl.UseProgram(stage.sky.id);
-  set(gl, stage.sky.at(gl, "u_ray_z"), {0.0F, half * level, forward.z});
-  gl.DepthMask(GL_FALSE);
-  stage.draw(stage.sky_quad);
-  gl.DepthMask(GL_TRUE);
-}
-
-void draw_marks(const Stage &stage, const View &view) {
-  const Gl &gl = stage.context.gl();
-  gl.UseProgram(stage.mark.id);
-  gl.UniformMatrix4fv(stage.mark.at(gl, "u_camera"), 1, GL_FALSE, view.camera.m.data());
-  set(gl, stage.mark.at(gl, "u_light"), view.light);
-  const GLint alpha = stage.mark.at(gl, "u_alpha");
-  gl.Enable(GL_BLEND);
-  gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  // On the ground: drawn in order, without depth among themselves.
-  gl.DepthMask(GL_FALSE);
-  gl.Enable(GL_POLYGON_OFFSET_FILL);
-  gl.PolygonOffset(-1.0F, -8.0F);
-  gl.Uniform1f(alpha, 1.0F);
-  stage.draw(stage.footprints);
-  // What the robot hides of the rest shines through, then the visible part comes in full.
-  gl.DepthFunc(GL_GREATER);
-  gl.Uniform1f(alpha, 0.62F);
-  stage.draw(stage.marks_ground);
-  stage.draw(stage.marks_air);
-  gl.DepthFunc(GL_LEQUAL);
-  gl.Uniform1f(alpha, 1.0F);
-  stage.draw(stage.marks_ground);
-  gl.Disable(GL_POLYGON_OFFSET_FILL);
-  gl.DepthMask(GL_TRUE);
-  stage.draw(stage.marks_air);
-  gl.Disable(GL_BLEND);
+// The floor around the pool: 3 x 3 rectangles along the pool's axes without the middle one. Its edge
+// lies under the walls.
+std::vector<Vec3> floor_around_pool(const View &view, const Ground &ground, const SoilSurface &soil) {
+  const float r = 1.6F * view.fade_m, wall = 0.5F * kWall_m;
+  const Vec3 eye = ground.pool_place(view.eye);
+  const auto lines = [&](float middle, float low, float high) {
+    return std::array<float, 4>{middle - r, std::clamp(low - wall, middle - r, middle + r),
+                                std::clamp(high + wall, middle - r, middle + r), middle + r};
+  };
+  const std::array<float, 4> x = lines(eye.x, soil.low_x(), soil.high_x());
+  const std::array<float, 4> y = lines(eye.y, soil.low_y(), soil.high_y());
+  std::vector<Vec3> points;
+  for (size_t row = 0; row < 3; ++row) {
+    for (size_t column = 0; column < 3; ++column) {
+      if (row == 1 && column == 1) continue;
+      add_rectangle(points, ground.pool_point({x[column], y[row], 0.0F}),
+                    ground.pool_point({x[column + 1], y[row], 0.0F}),
+                    ground.pool_point({x[column + 1], y[row + 1], 0.0F}),
+                    ground.pool_point({x[column], y[row + 1], 0.0F}));
+    }
+  }
+  return points;
 }
 
 void read_picture(hoap2_render &render, uint8_t *rgb) {
@@ -178,27 +124,33 @@ void draw(hoap2_render &render, const hoap2_scene_t &scene, uint8_t *rgb) {
   Stage &stage = *render.stage;
   const float aspect = static_cast<float>(stage.width_px) / static_cast<float>(stage.height_px);
   const View view = make_view(scene, aspect);
-  const Ground ground(scene, view.origin_W_m);
-  const std::vector<float> poses = pose_table(scene, view);
-  const bool shadow_on = (scene.show & HOAP2_SHOW_SHADOW) != 0;
+  const Ground ground(scene, view.origin_W_m, render.soil);
+  const std::vector<float> poses = pose_table(scene, view, render.soil);
+  const Shot shot = {stage, view, ground, render.soil, poses, scene.show};
 
   const Current current(stage.context);
   const Gl &gl = stage.context.gl();
+  const bool soil = render.soil.exists();
   stage.fill(stage.blocks, block_mesh(scene, view));
-  stage.fill(stage.floor_quad, floor_corners(view, ground));
+  stage.fill_soil(render.soil);
+  stage.fill(stage.floor_quad,
+             soil ? floor_around_pool(view, ground, render.soil) : floor_corners(view, ground));
   stage.fill(stage.footprints, footprint_marks(scene, ground, view.origin_W_m));
   stage.fill(stage.marks_ground, point_marks(scene, ground, view.origin_W_m));
   stage.fill(stage.marks_air, air_marks(scene, ground, view.origin_W_m));
   gl.Enable(GL_DEPTH_TEST);
   gl.Enable(GL_CULL_FACE);
   gl.DepthFunc(GL_LEQUAL);
-  if (shadow_on) draw_shadow(stage, view, poses);
+  if ((scene.show & HOAP2_SHOW_SHADOW) != 0) draw_shadow(shot);
   gl.BindFramebuffer(GL_FRAMEBUFFER, stage.picture_buffer);
   gl.Viewport(0, 0, stage.width_px, stage.height_px);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  draw_solids(stage, view, ground, poses, shadow_on);
-  draw_sky(stage, view);
-  draw_marks(stage, view);
+  // What hides most comes first; but footprints on soil must be under the robot.
+  if (soil) draw_ground(shot);
+  draw_solids(shot);
+  if (!soil) draw_ground(shot);
+  draw_sky(shot);
+  draw_marks(shot);
   read_picture(render, rgb);
   const GLenum problem = gl.GetError();
   if (problem != GL_NO_ERROR) throw std::runtime_error("OpenGL error " + std::to_string(problem));
@@ -236,6 +188,22 @@ int hoap2_render_draw(hoap2_render_t *render, const hoap2_scene_t *scene, uint8_
     render->error.clear();
     check(*scene);
     draw(*render, *scene, rgb);
+    return 0;
+  } catch (const std::exception &problem) {
+    render->error = problem.what();
+    return 1;
+  }
+}
+
+int hoap2_render_set_soil(hoap2_render_t *render, const hoap2_soil_grid_t *grid, const float *height_m,
+                          const float *change_m, double full_scale_m) {
+  try {
+    render->error.clear();
+    if (grid == nullptr) {
+      render->soil.clear();
+    } else {
+      render->soil.set(*grid, height_m, change_m, full_scale_m);
+    }
     return 0;
   } catch (const std::exception &problem) {
     render->error = problem.what();

@@ -47,7 +47,7 @@ layout(location = 0) in vec3 a_pos;
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec3 a_albedo;
 layout(location = 3) in vec2 a_gloss_link;
-uniform vec4 u_pose[81];     // 27 poses, rows of [R | p]
+uniform vec4 u_pose[84];     // 28 poses, rows of [R | p]
 uniform mat4 u_camera;
 out vec3 v_pos;
 out vec3 v_normal;
@@ -137,6 +137,63 @@ void main() {
   vec3 c = albedo * (vec3(0.43, 0.46, 0.51) + vec3(1.00, 0.96, 0.90) * lamp * share * 0.92);
   float fade = smoothstep(0.25 * u_fade_m, u_fade_m, length(v_pos.xy - u_eye.xy));
   colour = vec4(mix(display(c), HORIZON, fade), 1.0);
+}
+)";
+
+inline const std::string kSoilVertex = R"(
+layout(location = 0) in vec3 a_pos;
+layout(location = 1) in vec3 a_normal;
+layout(location = 2) in vec2 a_change_open;
+uniform vec4 u_pool[3];      // rows of [R | p]
+uniform mat4 u_camera;
+out vec3 v_pos;
+out vec3 v_normal;
+out vec3 v_grain;            // place in the pool, change of the surface
+out float v_open;
+void main() {
+  vec4 p = vec4(a_pos, 1.0);
+  v_pos = vec3(dot(u_pool[0], p), dot(u_pool[1], p), dot(u_pool[2], p));
+  v_normal = vec3(dot(u_pool[0].xyz, a_normal), dot(u_pool[1].xyz, a_normal), dot(u_pool[2].xyz, a_normal));
+  v_grain = vec3(a_pos.xy, a_change_open.x);
+  v_open = a_change_open.y;
+  gl_Position = u_camera * vec4(v_pos, 1.0);
+}
+)";
+
+// Sand with grains, tinted by how far it is sunk or raised.
+inline const std::string kSoilFragment = R"(
+in vec3 v_pos;
+in vec3 v_normal;
+in vec3 v_grain;
+in float v_open;
+uniform vec3 u_tint[5];      // full sinkage, half, untouched, half raised, fully raised
+uniform vec2 u_per_m;        // steps of u_tint a metre of sinkage and of rise
+out vec4 colour;
+float hash(ivec2 i) {
+  uint h = uint(i.x) * 374761393u + uint(i.y) * 668265263u;
+  h = (h ^ (h >> 13u)) * 1274126177u;
+  return float((h ^ (h >> 16u)) & 0xffffu) / 65535.0;
+}
+// Smooth noise about 0.5 that fades where it is finer than a pixel.
+float noise(vec2 p) {
+  ivec2 i = ivec2(floor(p));
+  vec2 f = fract(p);
+  vec2 w = fwidth(p);
+  f = f * f * (3.0 - 2.0 * f);
+  float n = mix(mix(hash(i), hash(i + ivec2(1, 0)), f.x), mix(hash(i + ivec2(0, 1)), hash(i + ivec2(1, 1)), f.x), f.y);
+  return mix(n, 0.5, smoothstep(0.4, 1.2, max(w.x, w.y)));
+}
+void main() {
+  float t = clamp(2.0 + v_grain.z * (v_grain.z < 0.0 ? u_per_m.x : u_per_m.y), 0.0, 4.0);
+  int k = min(int(t), 3);
+  vec3 albedo = mix(u_tint[k], u_tint[k + 1], t - float(k));
+  albedo *= v_open;
+  albedo *= 1.0 + 0.30 * (noise(v_grain.xy * 900.0) - 0.5) + 0.14 * (noise(v_grain.xy * 110.0) - 0.5);
+  vec3 n = normalize(v_normal);
+  float lamp = clamp(dot(n, u_light), 0.0, 1.0);
+  float share = lamp > 0.0 ? lamp_share(v_pos, n) : 0.0;
+  vec3 c = albedo * (vec3(0.43, 0.46, 0.51) * (0.4 + 0.6 * n.z) + vec3(1.00, 0.96, 0.90) * lamp * share * 0.92);
+  colour = vec4(display(c), 1.0);
 }
 )";
 

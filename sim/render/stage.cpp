@@ -1,9 +1,11 @@
 #include "stage.h"
 
+#include <cstddef>
 #include <stdexcept>
 
 #include "robot_shape.h"
 #include "shaders.h"
+#include "soil_tiles.h"
 
 namespace hoap2 {
 namespace {
@@ -44,18 +46,21 @@ void Stage::make_programs() {
   using namespace shader;
   const Gl &gl = context.gl();
   const char *solid_inputs[] = {"a_pos", "a_normal", "a_albedo", "a_gloss_link"};
+  const char *soil_inputs[] = {"a_pos", "a_normal", "a_change_open"};
   const char *mark_inputs[] = {"a_pos", "a_normal", "a_colour"};
   solid.id =
       build_program(gl, "solid", kHeader + kSolidVertex, kHeader + kLight + kSolidFragment, solid_inputs, 4);
   shadow.id = build_program(gl, "shadow", kHeader + kSolidVertex, kHeader + kShadowFragment, solid_inputs, 4);
   floor.id =
       build_program(gl, "floor", kHeader + kFloorVertex, kHeader + kLight + kFloorFragment, solid_inputs, 1);
+  soil.id =
+      build_program(gl, "soil", kHeader + kSoilVertex, kHeader + kLight + kSoilFragment, soil_inputs, 3);
   sky.id = build_program(gl, "sky", kHeader + kSkyVertex, kHeader + kLight + kSkyFragment, solid_inputs, 1);
   mark.id = build_program(gl, "mark", kHeader + kMarkVertex, kHeader + kMarkFragment, mark_inputs, 3);
 }
 
 void Stage::make_buffers() {
-  for (Batch *batch : {&robot, &robot_shadow, &blocks}) make_batch(*batch, true);
+  for (Batch *batch : {&robot, &robot_shadow, &blocks, &walls, &sand}) make_batch(*batch, true);
   for (Batch *batch : {&floor_quad, &sky_quad, &footprints, &marks_ground, &marks_air})
     make_batch(*batch, false);
   fill(robot, robot_mesh(Detail::picture));
@@ -148,6 +153,20 @@ void Stage::fill(Batch &batch, const std::vector<Vec3> &points) const {
   batch.count = static_cast<GLsizei>(points.size());
 }
 
+void Stage::fill_soil(SoilSurface &surface) {
+  if (!surface.exists() || !surface.take_change()) return;
+  const Gl &gl = context.gl();
+  const SoilMesh mesh = soil_mesh(surface);
+  gl.BindVertexArray(sand.array);
+  upload(gl, GL_ARRAY_BUFFER, sand.vertices, mesh.vertices);
+  upload(gl, GL_ELEMENT_ARRAY_BUFFER, sand.indices, mesh.indices);
+  attribute(gl, 0, 3, sizeof(SoilVertex), offsetof(SoilVertex, pos));
+  attribute(gl, 1, 3, sizeof(SoilVertex), offsetof(SoilVertex, normal));
+  attribute(gl, 2, 2, sizeof(SoilVertex), offsetof(SoilVertex, change_m));
+  sand.count = static_cast<GLsizei>(mesh.indices.size());
+  fill(walls, wall_mesh(surface, kPoolPose));
+}
+
 void Stage::draw(const Batch &batch) const {
   if (batch.count == 0) return;
   const Gl &gl = context.gl();
@@ -161,11 +180,11 @@ void Stage::draw(const Batch &batch) const {
 
 void Stage::destroy() {
   const Gl &gl = context.gl();
-  for (const Program *program : {&solid, &shadow, &floor, &sky, &mark}) {
+  for (const Program *program : {&solid, &shadow, &floor, &soil, &sky, &mark}) {
     if (program->id != 0) gl.DeleteProgram(program->id);
   }
-  for (Batch *batch :
-       {&robot, &robot_shadow, &blocks, &floor_quad, &sky_quad, &footprints, &marks_ground, &marks_air}) {
+  for (Batch *batch : {&robot, &robot_shadow, &blocks, &walls, &sand, &floor_quad, &sky_quad, &footprints,
+                       &marks_ground, &marks_air}) {
     if (batch->array != 0) gl.DeleteVertexArrays(1, &batch->array);
     if (batch->vertices != 0) gl.DeleteBuffers(1, &batch->vertices);
     if (batch->indices != 0) gl.DeleteBuffers(1, &batch->indices);

@@ -5,12 +5,17 @@
 #include <vector>
 
 #include "gl.h"
+#include "hoap2/generated/robot_model.h"
 #include "marks.h"
 #include "mesh.h"
+#include "soil_surface.h"
 
 namespace hoap2 {
 
 constexpr int kShadowSide_px = 1024;
+
+// Rows of the table of poses after those of the links: at rest, and the pool of soil.
+constexpr int kRestPose = HOAP2_LINKS, kPoolPose = HOAP2_LINKS + 1;
 
 // Vertices with their layout; refilled every frame or once.
 struct Batch {
@@ -33,13 +38,15 @@ class Stage {
   Context context;
   int width_px, height_px, samples;
 
-  Program solid, shadow, floor, sky, mark;
-  Batch robot, robot_shadow, blocks, floor_quad, sky_quad, footprints, marks_ground, marks_air;
+  Program solid, shadow, floor, soil, sky, mark;
+  Batch robot, robot_shadow, blocks, walls, sand, floor_quad, sky_quad, footprints, marks_ground, marks_air;
   GLuint picture_buffer = 0, resolve_buffer = 0, shadow_buffer = 0, shadow_map = 0;
 
   void fill(Batch &batch, const Mesh &mesh) const;
   void fill(Batch &batch, const Marks &marks) const;
   void fill(Batch &batch, const std::vector<Vec3> &points) const;
+  // The soil and its walls, when they changed.
+  void fill_soil(SoilSurface &surface);
   void draw(const Batch &batch) const;
 
  private:

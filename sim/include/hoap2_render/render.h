@@ -37,7 +37,8 @@ enum {
   HOAP2_SHOW_FOOTPRINTS = 8, /* outlined soles */
   HOAP2_SHOW_PUSH = 16,      /* arrow that ends at the point of application */
   HOAP2_SHOW_SHADOW = 32,
-  HOAP2_SHOW_ALL = 63
+  HOAP2_SHOW_SINKAGE = 64, /* soil coloured by its depth below the untouched surface */
+  HOAP2_SHOW_ALL = 127
 };
 
 typedef struct {
@@ -66,6 +67,18 @@ typedef struct {
   int32_t show;
 } hoap2_scene_t;
 
+/* A pool of soil in the floor: a grid of square cells in a frame of its own, whose z = 0 is the
+ * floor. The pool's walls stand at the border of the grid. */
+typedef struct {
+  double origin_W_m[3];
+  double axes_W[9]; /* rows of the rotation from the pool's frame to the world */
+  double low_x_m;   /* corner of cell (0, 0) */
+  double low_y_m;
+  double cell_m;
+  double depth_m;
+  int32_t nx, ny;
+} hoap2_soil_grid_t;
+
 /* samples: 1 (fast) or 4 (smooth edges). NULL when the size is out of range or OSMesa
  * gives no context; hoap2_render_error(NULL) then says why. */
 HOAP2_RENDER_API hoap2_render_t *hoap2_render_create(int32_t width_px, int32_t height_px, int32_t samples);
@@ -73,6 +86,12 @@ HOAP2_RENDER_API void hoap2_render_destroy(hoap2_render_t *render);
 
 /* Draw into rgb (height x width x 3 bytes, top row first). Returns 0 on success. */
 HOAP2_RENDER_API int hoap2_render_draw(hoap2_render_t *render, const hoap2_scene_t *scene, uint8_t *rgb);
+
+/* The soil of the pictures from now on; grid NULL: none. Both fields are ny rows of nx cells and are
+ * copied: the surface in the pool's frame, and the same against the untouched surface. The colour
+ * scale ends at a sinkage of full_scale_m. Returns 0 on success. */
+HOAP2_RENDER_API int hoap2_render_set_soil(hoap2_render_t *render, const hoap2_soil_grid_t *grid,
+                                           const float *height_m, const float *change_m, double full_scale_m);
 
 /* Where a point appears: column, row from the top left corner (in pixels), distance along
  * the line of sight (m). Returns 0, or non-zero when it is behind the camera. */
