@@ -12,9 +12,10 @@
 namespace hoap2 {
 namespace {
 
-// How long after the reference the sensors show the CoM: 5 ms of the servo (no velocity feed-forward), some
-// ticks of link and sensors, and what of the robot's own lag is always there.
-constexpr double kSensedLate_s = 0.010;
+// How long after the reference the sensors show the CoM of a robot that walks undisturbed (least rms
+// deviation on the hard floor): the servo's 5 ms (no velocity feed-forward), link and sensors, and the sway
+// of the body.
+constexpr double kSensedLate_s = 0.016;
 constexpr double kNonsense_m = 0.2;    // a larger deviation is no measurement
 constexpr double kTooNear_m = 1e-9;    // spacing short by less is rounding
 constexpr double kLegMargin_m = 3e-3;  // of a leg's reach, for what the coarse look below leaves out

@@ -112,6 +112,12 @@ inline hoap2_params_t lpc_params(int forward = 16, int in_place = 4) {
   params.steps_forward = forward;
   params.steps_in_place = in_place;
   params.landing_control = HOAP2_SWITCH_ON;
+  for (int i = 0; i < 2; ++i) {  // of the tests: a steady gain K_L / (1 - lambda) of 1.5
+    params.lpc_gain[i] = 0.45;
+    params.lpc_forget[i] = 0.7;
+  }
+  params.lpc_threshold_m[0] = 0.002;
+  params.lpc_threshold_m[1] = 0.006;
   return params;
 }
 
