@@ -38,8 +38,6 @@ hoap2_params_t random_params(RandomPosture& random) {
   params.first_swing_foot = random.uniform(0.0, 1.0) < 0.5 ? 0 : 1;
   params.cop_profile = random.uniform(0.0, 1.0) < 0.5 ? 0 : 1;
   params.cp_controller = static_cast<int32_t>(random.uniform(0.0, 2.999));
-  params.landing_control = random.uniform(0.0, 1.0) < 0.5 ? 0 : 1;
-  params.lpc_moves_cp = random.uniform(0.0, 1.0) < 0.5 ? 0 : 1;
   params.steps_forward = static_cast<int32_t>(random.uniform(0.0, 6.999));
   params.steps_in_place = 2;
   return params;
@@ -51,7 +49,9 @@ TEST(RandomUse, AWalkIsRefusedAtTheStartOrTakenToItsEnd) {
   int refused = 0;
   int clipped = 0;  // the feedback may take a walk on the brink to a joint limit, which is told
   for (int n = 0; n < 150; ++n) {
-    const hoap2_params_t params = random_params(random);
+    hoap2_params_t params = random_params(random);
+    params.landing_control = n % 2;
+    params.lpc_moves_cp = n / 2 % 2;
     Loop loop(params);
     if (loop.init_fault != 0) {
       ASSERT_EQ(loop.out.mode, HOAP2_MODE_SAFE);
