@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from hoap2 import picture_labels as labels
-from hoap2 import pictures, recording, video_file
+from hoap2 import pictures, recording, soil_replay, video_file
 from hoap2.figures.walk_data import Walk
 from hoap2.recording import Recording
 from hoap2.renderer import Renderer
@@ -27,9 +27,23 @@ class Side:
     name: str
     ending: str
     targets: np.ndarray
+    soil: soil_replay.SoilReplay | None
 
     def row(self, t_s: float) -> int:
         return min(int(np.searchsorted(self.run.t_s, t_s - 1e-9)), len(self.run.t_s) - 1)
+
+    def picture(self, row: int, camera: Renderer) -> np.ndarray:
+        """The run at a row, without words."""
+        if self.soil is not None:
+            self.soil.show(camera, row)
+        scene = pictures.scene_from_run(row, self.run, VIEW, self.targets[row], aspect=SIDE_PX[0] / SIDE_PX[1])
+        return camera.draw(scene)
+
+    def write_on(self, picture: np.ndarray, t_s: float) -> None:
+        """What it is, the time, and the meaning of the sand's colours, in place."""
+        labels.caption(picture, self.text(t_s))
+        if self.soil is not None:
+            labels.sinkage_scale(picture, self.soil.full_scale_m)
 
     def text(self, t_s: float) -> str:
         """`A: sand-walk   t = 3.20 s   step 5`, or how it ended."""
@@ -45,7 +59,8 @@ def _side(walk: Walk, name: str) -> Side:
     run = recording.of_log(walk.folder, walk.log, walk.scenario)
     what = f"fell {walk.summary['fall_direction']}, " if walk.summary.get("fell") else ""
     what += "then an error, " if walk.summary.get("error") else ""
-    return Side(run, name, f"{what}ended at {run.end_s:.2f} s", pictures.camera_targets(run))
+    ending = f"{what}ended at {run.end_s:.2f} s"
+    return Side(run, name, ending, pictures.camera_targets(run), soil_replay.of_run(run))
 
 
 def write(walks: tuple[Walk, Walk], names: tuple[str, str], path: Path,
@@ -57,22 +72,20 @@ def write(walks: tuple[Walk, Walk], names: tuple[str, str], path: Path,
     width, height = SIDE_PX
     whole = np.full((height, 2 * width + GAP_PX, 3), 255, dtype=np.uint8)
     last: list[tuple[int, np.ndarray] | None] = [None, None]
+    # a camera each: the ground belongs to the camera
     with (
         video_file.writing(path, (2 * width + GAP_PX, height), FPS) as video,
-        Renderer(width, height, samples=4) as camera,
+        Renderer(width, height, samples=4) as first,
+        Renderer(width, height, samples=4) as second,
     ):
         for k in range(count):
-            for number, side in enumerate(sides):
-                row = side.row(k / FPS)
-                bare = last[number]
+            for number, (side, camera) in enumerate(zip(sides, (first, second))):
+                row, bare = side.row(k / FPS), last[number]
                 if bare is None or bare[0] != row:  # a run that has ended is not drawn again
-                    bare = last[number] = (
-                        row,
-                        camera.draw(pictures.scene_from_run(row, side.run, VIEW, side.targets[row])),
-                    )
+                    bare = last[number] = row, side.picture(row, camera)
                 place = whole[:, number * (width + GAP_PX) : number * (width + GAP_PX) + width]
                 place[...] = bare[1]
-                labels.caption(place, side.text(k / FPS))
+                side.write_on(place, k / FPS)
             labels.legend(whole[:, :width])
             video.write(whole)
             if not progress(k + 1, count):

@@ -159,7 +159,7 @@ def _caption(run: Recording, row: int) -> str:
     return f"{text}   step {int(step[0])}" if step is not None and step[0] > 0 else text
 
 
-def _stills(run: Recording, rows: Iterable[int], view: str, overlays: bool,
+def stills(run: Recording, rows: Iterable[int], view: str, overlays: bool,
             size: tuple[int, int]) -> Iterator[np.ndarray]:  # fmt: skip
     """Pictures with smooth edges: four samples a pixel, at twice the size where that is possible."""
     width, height = size
@@ -214,7 +214,7 @@ def write_frame(run: Recording | str | Path, t_s: float, path: str | Path, size:
     path = _check_target(Path(path), (".png", ".jpg", ".webp"), overwrite)
     run = _load(run)
     row = run.row(t_s)
-    (picture,) = _stills(run, [row], view, overlays, size)
+    (picture,) = stills(run, [row], view, overlays, size)
     if overlays:
         _write_on(picture, run, row)
     return _save(picture, path)
@@ -228,7 +228,7 @@ def strip(run: Recording | str | Path, times: list[float], path: str | Path, siz
         raise UserError("a strip needs at least one time")
     run = _load(run)
     rows = [run.row(t) for t in times]
-    pictures = list(_stills(run, rows, view, overlays, size))
+    pictures = list(stills(run, rows, view, overlays, size))
     for row, picture in zip(rows, pictures):
         labels.caption(picture, f"{run.t_s[row]:.2f} s")
     gap = np.full((size[1], 2, 3), 255, dtype=np.uint8)

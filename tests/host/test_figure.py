@@ -62,7 +62,7 @@ def test_growth_of_the_pitch_and_the_fall():
     assert measured.pitch_at_step_deg(walk, 10) == pytest.approx(-3.0 * 9.5 / 17, abs=0.01)
     step, t_s = measured.pitch_grown(walk)
     assert step == 12 and t_s == pytest.approx((step_begin(1) + 2 / 3 * 17 * STEP_TICKS) * 1e-3, abs=0.002)
-    assert measured.outcome(walk).startswith("fell backward, step 18, 7.1 s after")
+    assert measured.outcome(walk).startswith("fell backward, step 18, 7.1 s into the walk")
     assert measured.sinkage_mm(walk) == pytest.approx(6.0)
     text = {row[0]: row[2] for row in reported.rows("7.11", walk, None)}
     assert "beyond 2 deg backward for good from step 12 on" in text["pitch"] and "6.0 mm" in text["sinkage, mid stance"]

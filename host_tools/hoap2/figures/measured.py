@@ -54,12 +54,12 @@ def walk_begins_s(walk: Walk) -> float:
 
 
 def outcome(walk: Walk) -> str:
-    """`all 36 steps, stands at the end` or `fell backward, step 18, 9.4 s`."""
+    """`all 36 steps, stands at the end` or `fell backward, step 18, 7.2 s into the walk`."""
     done, planned = walk.summary.get("steps_taken"), walk.scenario.steps_planned
     if walk.fall_tick is not None:
         step = walk_fall_step(walk)
         where = metrics.fall_direction(walk.log, walk.fall_tick)
-        return f"fell {where}, step {step}, {walk.fall_s - walk_begins_s(walk):.1f} s after the first step began"
+        return f"fell {where}, step {step}, {walk.fall_s - walk_begins_s(walk):.1f} s into the walk"
     end = "stands at the end" if walk.summary.get("stands_at_end") else "does not stand still at the end"
     return f"{'all ' if done == planned else ''}{done} of {planned} steps, {end}"
 

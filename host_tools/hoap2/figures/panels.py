@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hoap2 import picture_labels
 from hoap2.figures import snapshots, style
 from hoap2.figures.measured import walk_begins_s, walk_fall_step
 from hoap2.figures.walk_data import DEG, Walk
@@ -30,12 +31,9 @@ def strip(figure: Figure, walk: Walk, bottom: float, height: float) -> None:
     """A: snapshots, the time since the first step below each."""
     times = snapshots.moments(walk)
     axes = new_axes(figure, bottom, height, "A  Snapshots")
-    width_in = style.WIDTH_IN - LEFT_IN - RIGHT_IN
-    aspect = (width_in / len(times)) / (height * figure.get_figheight())
-    size = (
-        round(1.3 * style.PNG_DPI * height * figure.get_figheight() * aspect),
-        round(1.3 * style.PNG_DPI * height * figure.get_figheight()),
-    )
+    high_px = round(1.3 * style.PNG_DPI * height * figure.get_figheight())
+    wide_in = (style.WIDTH_IN - LEFT_IN - RIGHT_IN) / len(times)
+    size = round(1.3 * style.PNG_DPI * wide_in), high_px
     shown = snapshots.take(walk, times, size, "side" if walk.on_soil else "quarter")
     for place, picture in enumerate(shown):
         axes.imshow(picture, extent=(place + 0.01, place + 0.99, 0, 1), aspect="auto", interpolation="lanczos")
@@ -45,6 +43,23 @@ def strip(figure: Figure, walk: Walk, bottom: float, height: float) -> None:
     axes.tick_params(length=0)
     axes.grid(visible=False)
     axes.spines[:].set_visible(False)
+    full_mm = snapshots.sinkage_scale_mm(walk)
+    if full_mm is not None:
+        _sand_colours(figure, bottom + height + 0.09 / figure.get_figheight(), full_mm)
+
+
+def _sand_colours(figure: Figure, bottom: float, full_mm: float) -> None:
+    """What the colours of the sand mean, above the snapshots at the right."""
+    width, height = 1.1 / style.WIDTH_IN, 0.09 / figure.get_figheight()
+    left = 1 - (RIGHT_IN + 1.95) / style.WIDTH_IN
+    axes = figure.add_axes((left, bottom, width, height))
+    place = np.linspace(0, len(picture_labels.SOIL) - 1, 200)
+    colours = [np.interp(place, range(len(picture_labels.SOIL)), channel) for channel in zip(*picture_labels.SOIL)]
+    axes.imshow(np.stack(colours, axis=1)[None] / 255.0, aspect="auto")
+    axes.set_axis_off()
+    raised = full_mm * picture_labels.SOIL_RISE_SHARE
+    for x, anchor, text in ((-0.06, "right", f"sand: sunk {full_mm:g} mm"), (1.06, "left", f"raised {raised:g} mm")):
+        axes.text(x, 0.4, text, transform=axes.transAxes, ha=anchor, va="center", fontsize=7.5)
 
 
 def _moment(walk: Walk, t: float, begin: float) -> str:

@@ -66,11 +66,11 @@ def _grown(walk: Walk) -> str:
 
 
 def _sand(walk: Walk, _: Walk | None) -> list[Row]:
-    drawn = f"seed {walk.summary['seed']}" if walk.summary["seed"] else "the nominal one"
+    drawn = f"seed {walk.summary['seed']}" if walk.summary["seed"] else "nominal"
     return [
         ("outcome", "fell backward at the 18th step", measured.outcome(walk)),
         ("pitch", "grew rapidly after about the 10th step (5 s)", _grown(walk)),
-        ("repeated", "several times, never a stable walk", f"this run is {drawn}; ./hoap2 study sand runs many"),
+        ("repeated", "several times, never a stable walk", f"this run: {drawn}; ./hoap2 study sand runs many"),
         ("sinkage, mid stance", "not given", _text(measured.sinkage_mm(walk), "mm", 1)),
     ]
 
@@ -89,7 +89,7 @@ def _sand_controlled(walk: Walk, other: Walk | None) -> list[Row]:
         ("outcome", "walked to the end", measured.outcome(walk)),
         ("roll, pitch", "divergence well suppressed", f"at most {_text(roll, 'deg')} and {_text(pitch, 'deg')}"),
         ("\u0394r_k", "calculated and applied", _shift_text(walk)),
-        ("same without control", "Fig. 7.11: fell backward", measured.outcome(other) if other else "-"),
+        ("without control", "Fig. 7.11: fell backward", measured.outcome(other) if other else "-"),
         ("sinkage, mid stance", "not given", _text(measured.sinkage_mm(walk), "mm", 1)),
     ]
 

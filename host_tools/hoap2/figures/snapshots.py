@@ -5,11 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from PIL import Image
 
-from hoap2 import pictures, recording
+from hoap2 import pictures, recording, soil_replay
 from hoap2.figures.walk_data import Walk
-from hoap2.renderer import Renderer
 
 COUNT = 6
 BEFORE_FALL_S, AFTER_FALL_S = 0.3, 0.35
@@ -25,12 +23,13 @@ def moments(walk: Walk, count: int = COUNT) -> list[float]:
 
 
 def take(walk: Walk, times: list[float], size_px: tuple[int, int], view: str = "side") -> list[np.ndarray]:
-    """A picture a time, (height, width, 3) uint8, with smooth edges."""
+    """A picture a time, (height, width, 3) uint8, with smooth edges; sand is coloured by its sinkage."""
     run = recording.of_log(Path(walk.folder), walk.log, walk.scenario)
-    targets, found = pictures.camera_targets(run), []
-    with Renderer(2 * size_px[0], 2 * size_px[1], samples=4) as camera:
-        for t in times:
-            row = run.row(min(t, run.end_s))
-            picture = camera.draw(pictures.scene_from_run(row, run, view, targets[row]))
-            found.append(np.array(Image.fromarray(picture).resize(size_px, Image.Resampling.BOX)))
-    return found
+    rows = [run.row(min(t, run.end_s)) for t in times]
+    return list(pictures.stills(run, rows, view, True, size_px))
+
+
+def sinkage_scale_mm(walk: Walk) -> float | None:
+    """The sinkage at the end of the sand's colours; None on the rigid floor."""
+    run = recording.of_log(Path(walk.folder), walk.log, walk.scenario)
+    return 1e3 * soil_replay.full_scale_m(run) if run.on_soil else None
