@@ -10,9 +10,9 @@ from PIL import Image, ImageDraw, ImageFont
 # The colours of sim/render/marks.cpp.
 COM, COM_DARK, COP, CP = (250, 199, 20), (26, 26, 31), (219, 31, 36), (5, 158, 92)
 RIGHT, LEFT, PUSH = (232, 107, 26), (26, 102, 219), (184, 26, 148)
-# Of sim/render/passes.cpp: full sinkage, half, untouched, half raised, fully raised; the rise has half the scale.
+# Of sim/render/passes.cpp: full sinkage, half, untouched, half raised, fully raised; the rise has a fifth of the scale.
 SOIL = ((24, 50, 100), (92, 122, 152), (205, 180, 138), (232, 214, 176), (255, 246, 222))
-SOIL_RISE_SHARE = 0.5
+SOIL_RISE_SHARE = 0.2
 INK, PANEL = (32, 38, 46, 255), (255, 255, 255, 190)
 
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<Vec3, 5> kTint = {
     {{24, 50, 100}, {92, 122, 152}, {205, 180, 138}, {232, 214, 176}, {255, 246, 222}}};
 // What of the scale of the sinkage is the scale of the rise: rims are lower than ruts are deep.
-constexpr float kRiseShare = 0.5F;
+constexpr float kRiseShare = 0.2F;
 
 void set(const Gl &gl, GLint location, Vec3 v) { gl.Uniform3f(location, v.x, v.y, v.z); }
 
