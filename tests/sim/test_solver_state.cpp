@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ground_scenes.h"
+#include "tick_rig.h"
 
 namespace hoap2_sim {
 namespace {
@@ -57,6 +58,65 @@ TEST_P(SolverState, RestoredInMidContactContinuesBitForBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ground, SolverState, ::testing::ValuesIn(kGroundScenes), scene_name);
+
+// A tick knows nothing but its state: two throws ticked in turn by one solver, and each by its own.
+TEST(SolverTicks, AreTheSameWhateverTheSolverDidBefore) {
+  for (std::uint64_t seed = 1; seed <= 19; seed += 2) {
+    Rig rigs[2];
+    for (std::uint64_t k = 0; k < 2; ++k) {
+      rigs[k].params.friction_mu = seed % 3 == 0 ? 1.5 : 0.7;
+      rigs[k].params.start_height_m = 0.01;
+      thrown(&rigs[k], seed + k, 0.02);
+      rigs[k].mode_of_all(kDriveOff);
+    }
+    TickRig own(rigs[0].params), shared(rigs[0].params);
+    own.next = rigs[0].state();
+    State elsewhere = rigs[1].state();
+    int contacts = 0;
+    for (int tick = 0; tick < 400; ++tick) {
+      shared.run(elsewhere, rigs[1].inputs);
+      elsewhere = shared.next;
+      shared.run(own.next, rigs[0].inputs);
+      own.run_on(rigs[0].inputs);
+      contacts += own.contacts.count;
+      ASSERT_EQ(0, std::memcmp(&own.next, &shared.next, sizeof own.next))
+          << "seed " << seed << " tick " << tick;
+    }
+    EXPECT_GT(contacts, 50);
+  }
+}
+
+// The same of its one part that remembers within a tick. A last tick that ended with a small error, or a
+// large one, must not steer the next one.
+TEST(SolverTicks, BoundsForgetTheLastTick) {
+  const auto fixed_point = [](BoundIteration *bounds, int count, double slope, double at_zero_N) {
+    std::vector<double> guess_N(static_cast<std::size_t>(count), 27.0), image_N = guess_N;
+    bounds->start(count);
+    for (int update = 0; update < 40; ++update) {
+      for (std::size_t i = 0; i < guess_N.size(); ++i) {
+        image_N[i] = std::fmax(0.0, at_zero_N + slope * guess_N[guess_N.size() - 1 - i]);
+      }
+      bounds->next(image_N.data(), guess_N.data());
+    }
+    return guess_N;
+  };
+  for (const int count : {1, 2}) {
+    for (const double slope : {-4.0, -0.7, 0.5, 0.9}) {
+      auto fresh = std::make_unique<BoundIteration>(), used = std::make_unique<BoundIteration>();
+      const std::vector<double> first_N = fixed_point(fresh.get(), count, slope, 10.0);
+      for (const double error_N : {1e-9, 1e-3, 1e6}) {
+        used->start(count);
+        const double image_N[2] = {1.0 + error_N, 1.0};
+        double guess_N[2] = {1.0, 1.0};
+        used->next(image_N, guess_N);
+        EXPECT_EQ(first_N, fixed_point(used.get(), count, slope, 10.0)) << slope << " after " << error_N;
+      }
+      if (count == 1) {
+        EXPECT_NEAR(10.0 / (1.0 - slope), first_N[0], 1e-8) << slope;
+      }
+    }
+  }
+}
 
 // An instance goes back to its own block as well.
 TEST(SolverStateBlock, GoesBackBitForBitInTheMiddleOfAWalkingStep) {

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
+#include <string>
 
 #include "drive/drive.h"
 #include "ode_runtime.h"
@@ -46,15 +48,12 @@ class TickRig {
     for (int j = 0; j < HOAP2_JOINTS; ++j) drive_[j].begin(before, inputs, j);
     ground_.find_contacts(before, axes_W, &contacts);
     for (LinkLoad &l : load) l = LinkLoad{};
-    solver_->begin({&before, axes_W, load, &contacts});
-    while (true) {
-      for (int j = 0; j < HOAP2_JOINTS; ++j) row[j] = drive_[j].row();
-      solver_->solve(row, rate_rad_s);
-      ++solves;
-      note_effort();
-      if (solves == 8 || !correct_saturation()) break;
+    try {
+      solve_tick();
+    } catch (const OdeFailure &failure) {
+      solver_->abandon();
+      throw std::runtime_error(std::string("the engine gave up: ") + failure.what());
     }
-    solver_->finish(&next);
     Mat3 next_axes_W[HOAP2_LINKS];
     all_link_axes_W(next, next_axes_W);
     for (int j = 0; j < HOAP2_JOINTS; ++j) {
@@ -112,6 +111,17 @@ class TickRig {
   int solves = 0;
 
  private:
+  void solve_tick() {
+    solver_->begin({&before, axes_W, load, &contacts});
+    while (true) {
+      for (int j = 0; j < HOAP2_JOINTS; ++j) row[j] = drive_[j].row();
+      solver_->solve(row, rate_rad_s);
+      ++solves;
+      note_effort();
+      if (solves == 8 || !correct_saturation()) break;
+    }
+    solver_->finish(&next);
+  }
   void note_effort() {
     if (articulated_ == nullptr) return;
     const ContactEffort &effort = articulated_->effort();
