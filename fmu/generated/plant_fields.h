@@ -7,7 +7,7 @@
 #include "../product.h"
 #include "hoap2_plant/generated/plant_signals.h"
 
-#define HOAP2_FMU_TOKEN "{9da79ca2-6f72-7c84-f9a1-91957f846a94}"
+#define HOAP2_FMU_TOKEN "{9de40bf8-447d-0f12-2ede-907e87aba71d}"
 enum { HOAP2_FMU_FIELDS = 85, HOAP2_FMU_ELEMENTS = 599 };
 
 /* name, group, kind, tunable, FMI 2 value reference of the first element, elements, offset, range */

@@ -143,7 +143,7 @@ static inline void hoap2_plant_params_defaults(hoap2_plant_params_t *p) {
     for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&(p)->soil_centre_m)[i_] = v_[i_]; }
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_cell_m)[i_] = 0.005;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_kc_N_m_n1)[i_] = 0.0;
-  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_kphi_N_m_n2)[i_] = 6400000.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_kphi_N_m_n2)[i_] = 6500000.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_n)[i_] = 1.1;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_cohesion_Pa)[i_] = 200.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->soil_friction_rad)[i_] = 0.5235987755982988;
