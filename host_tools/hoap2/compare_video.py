@@ -28,6 +28,7 @@ class Side:
     ending: str
     targets: np.ndarray
     soil: soil_replay.SoilReplay | None
+    fall_s: float | None
 
     def row(self, t_s: float) -> int:
         return min(int(np.searchsorted(self.run.t_s, t_s - 1e-9)), len(self.run.t_s) - 1)
@@ -49,6 +50,8 @@ class Side:
         """`A: sand-walk   t = 3.20 s   step 5`, or how it ended."""
         if t_s > self.run.end_s + 1e-9:
             return f"{self.name}   {self.ending}"
+        if self.fall_s is not None and t_s >= self.fall_s:
+            return f"{self.name}   t = {t_s:.2f} s   fallen"
         step = self.run.values("step_index", self.row(t_s))
         return f"{self.name}   t = {t_s:.2f} s" + (
             f"   step {int(step[0])}" if step is not None and step[0] > 0 else ""
@@ -60,7 +63,7 @@ def _side(walk: Walk, name: str) -> Side:
     what = f"fell {walk.summary['fall_direction']}, " if walk.summary.get("fell") else ""
     what += "then an error, " if walk.summary.get("error") else ""
     ending = f"{what}ended at {run.end_s:.2f} s"
-    return Side(run, name, ending, pictures.camera_targets(run), soil_replay.of_run(run))
+    return Side(run, name, ending, pictures.camera_targets(run), soil_replay.of_run(run), walk.fall_s)
 
 
 def write(walks: tuple[Walk, Walk], names: tuple[str, str], path: Path,

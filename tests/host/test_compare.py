@@ -94,6 +94,7 @@ def test_a_run_that_has_ended_says_so(runs):
     last = len(side.run.t_s) - 1
     assert side.row(3.0) == 3000 and side.row(99.0) == last
     assert side.text(2.0) == "B: x   t = 2.00 s   step 1"
+    assert side.text(2.96) == "B: x   t = 2.96 s   fallen"
     assert side.text(side.run.end_s) != side.text(side.run.end_s + 0.04)
     assert side.text(99.0) == f"B: x   fell backward, ended at {side.run.end_s:.2f} s"
 
