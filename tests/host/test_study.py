@@ -20,7 +20,7 @@ from hoap2 import cli, parallel, scenario, statistics
 from hoap2.errors import UserError
 from hoap2.master import StopRequest
 from hoap2.products import Choice
-from hoap2.studies import collection, groups, light, parameter_map, sand, shown, sweep, tables
+from hoap2.studies import collection, groups, light, own_value, parameter_map, sand, shown, sweep, tables
 
 FILES = {"study.json", "runs.csv", "table.csv", "study.png", "study.svg", "plan.json", "runs.jsonl"}
 QUIET = Console(file=io.StringIO())
@@ -262,7 +262,8 @@ def test_tables_of_a_study():
 
 def test_values_of_an_axis():
     assert sweep.parse("plant.soil_n=0.9:1.3:5").values == ("0.9", "1", "1.1", "1.2", "1.3")
-    assert sweep.parse("plant.soil_kphi_N_m_n2=4.8e6:7.2e6:3").numbers == [4.8e6, 6e6, 7.2e6]
+    assert sweep.parse("plant.soil_kphi_N_m_n2=4.8e6:7.2e6:3").values == ("4800000", "6000000", "7200000")
+    assert sweep.parse("plant.soil_n=x0.9:x1.1:3").values == ("x0.9", "x1", "x1.1")
     assert sweep.parse("scenario.sensors=ideal, hoap2") == sweep.Axis("scenario.sensors", ("ideal", "hoap2"))
     assert sweep.parse("controller.lpc_gain=[0.3, 0.4],[0.5, 0.6]").values == ("[0.3, 0.4]", "[0.5, 0.6]")
     two = sweep.given(["a.b=1,2", "c.d=x,y"])
@@ -285,13 +286,24 @@ def test_three_parameters_or_one_twice_are_too_many():
 
 def test_the_predefined_sweeps_load():
     for each in sweep.PREDEFINED:
-        owns = 0
-        for cell in each.cells():
+        found = own_value.resolve(each, "sand-walk", [])
+        for cell in found.cells():
             for name in parameter_map.SCENARIOS:
-                scenario.load(name, each.overrides(cell))
-        plan = {"scenarios": list(parameter_map.SCENARIOS), "set": []}
-        owns += sum(parameter_map._own_value(axis, plan, each.sets) is not None for axis in each.axes)
-        assert owns == 1, f"{each.name} does not hold the scenario's own value"
+                scenario.load(name, found.overrides(cell))
+        [axis] = found.axes
+        assert own_value.find(axis, found, "sand-walk", []) is not None, f"{each.name}: not the scenario's own value"
+
+
+def test_factors_of_the_own_value():
+    own = scenario.load("floor-walk").values["controller"]
+    assert own["step_time_s"] == (0.4,) and len(set(own["lpc_threshold_m"])) == 2
+    texts = ["controller.step_time_s=x0.5,x1,0.7", "controller.lpc_threshold_m=x1,x2"]
+    found = own_value.resolve(sweep.given(texts), "floor-walk", ["controller.step_time_s=0.5"])
+    assert found.axes[0].values == ("0.25", "0.5", "0.7")
+    assert found.axes[1].values == ("[0.002, 0.006]", "[0.004, 0.012]")
+    assert own_value.find(found.axes[1], found, "floor-walk", []) == "[0.002, 0.006]"
+    with pytest.raises(UserError, match="needs a number to multiply"):
+        own_value.resolve(sweep.given(["scenario.sensors=x1,x2"]), "floor-walk", [])
 
 
 def test_a_map_counts_each_cell(runs, tmp_path, monkeypatch):

@@ -12,8 +12,8 @@ from rich.console import Console
 from hoap2 import parameters, products, runfolder, scenario
 from hoap2 import seeds as seeds_module
 from hoap2.errors import UserError
-from hoap2.studies import collection, groups, light, sand, shown, sweep, tables
-from hoap2.studies.sweep import PREDEFINED, Axis, Sweep
+from hoap2.studies import collection, groups, light, own_value, sand, shown, sweep, tables
+from hoap2.studies.sweep import PREDEFINED, Sweep
 
 SCENARIOS = ("sand-walk", "sand-walk-lpc")
 DEFAULT_SEEDS = "1-12"
@@ -61,10 +61,16 @@ def _plan(wish: Wish) -> dict:
     return plan | {key: value for key, value in own.items() if value}
 
 
+def _base(plan: dict) -> tuple[str, list[str]]:
+    """The scenario, with its overrides, whose own values factors and stars refer to."""
+    return plan["scenarios"][0], plan["set"]
+
+
 def run(wish: Wish, console: Console, show: bool = True) -> tuple[dict, int]:
     """Run what is missing; write study.json, both tables and the figure. Returns the document and the exit code."""
     plan = _plan(wish)
-    sweeps, seed_list = _chosen(plan), seeds_module.parse_range(plan["seeds"])
+    sweeps = [own_value.resolve(each, *_base(plan)) for each in _chosen(plan)]
+    seed_list = seeds_module.parse_range(plan["seeds"])
     loaded = {
         (each.name, cell, name): scenario.load(name, [*plan["set"], *each.overrides(cell)])
         for each in sweeps for cell in each.cells() for name in plan["scenarios"]
@@ -78,34 +84,6 @@ def run(wish: Wish, console: Console, show: bool = True) -> tuple[dict, int]:
     if show:
         shown.parameter_map(document, Console(highlight=False))
     return document, sand.exit_code(document)
-
-
-def _own_value(axis: Axis, plan: dict, sets: tuple[str, ...]) -> str | None:
-    """The value among the axis's that the scenario has anyway, as it is written on the axis."""
-    product, _, name = axis.name.partition(".")
-    nominal = scenario.load(plan["scenarios"][0], [*plan["set"], *sets])
-    if axis.name == "scenario.sensors":
-        return nominal.sensors
-    if product not in nominal.values or name not in nominal.values[product]:
-        return None
-    own = nominal.values[product][name]
-    return next((value for value in axis.values if _flat(product, name, value) == own), None)
-
-
-def _flat(product: str, name: str, value: str) -> tuple[float, ...]:
-    import tomllib
-
-    try:
-        literal = tomllib.loads(f"v = {value}")["v"]
-    except tomllib.TOMLDecodeError:
-        literal = value
-    return parameters.check(product, name, literal)
-
-
-def _unit(axis: Axis) -> str:
-    product, _, name = axis.name.partition(".")
-    known = parameters.known(product) if product in ("controller", "plant") else {}
-    return known[name].unit if name in known and not known[name].enum and known[name].unit != "1" else ""
 
 
 def describe(sweeps: list[Sweep], plan: dict, seed_list: list[int], found: collection.Found) -> dict:
@@ -139,7 +117,12 @@ def _describe_sweep(each: Sweep, plan: dict, found: collection.Found) -> dict:
         blocks = {sand.key_of(name): groups.describe(rows[key], failed[key]) for name, key in keys.items()}
         cells.append({"values": dict(zip((axis.name for axis in each.axes), cell)), **blocks})
     axes = [
-        {"name": a.name, "unit": _unit(a), "values": list(a.values), "own": _own_value(a, plan, each.sets)}
+        {
+            "name": a.name,
+            "unit": own_value.unit(a),
+            "values": list(a.values),
+            "own": own_value.find(a, each, *_base(plan)),
+        }
         for a in each.axes
     ]
     return {"name": each.name, "title": each.title, "axes": axes, "set": list(each.sets), "cells": cells}

@@ -18,14 +18,6 @@ class Axis:
     name: str
     values: tuple[str, ...]
 
-    @property
-    def numbers(self) -> list[float] | None:
-        """The values as numbers; None when one is a word or a list."""
-        try:
-            return [float(value) for value in self.values]
-        except ValueError:
-            return None
-
 
 @dataclass(frozen=True)
 class Sweep:
@@ -46,7 +38,10 @@ class Sweep:
 
 
 def parse(text: str) -> Axis:
-    """`a.b=low:high:count` or `a.b=v1,v2,...` (a list as a value in its brackets)."""
+    """`a.b=low:high:count` or `a.b=v1,v2,...` (a list as a value in its brackets).
+
+    Numbers after an x (`x0.8:x1.2:5`, `x0.5,x1,x2`) are factors of the scenario's own value: own_value.py.
+    """
     name, equals, right = text.partition("=")
     name, right = name.strip(), right.strip()
     if not equals or "." not in name or not right:
@@ -61,16 +56,17 @@ def parse(text: str) -> Axis:
 
 
 def _grid(text: str, right: str) -> tuple[str, ...]:
+    factor = "x" if right.startswith("x") else ""
     parts = right.split(":")
     try:
-        low, high, count = float(parts[0]), float(parts[1]), int(parts[2])
+        low, high, count = float(parts[0].removeprefix("x")), float(parts[1].removeprefix(factor)), int(parts[2])
         if len(parts) != 3:
             raise ValueError
     except (ValueError, IndexError):
         raise UserError(f"--vary {text!r}: a grid is low:high:count, for example 4.8e6:7.2e6:5") from None
     if not 2 <= count <= MOST_VALUES or low == high:
         raise UserError(f"--vary {text!r}: 2 to {MOST_VALUES} different values")
-    return tuple(f"{low + (high - low) * i / (count - 1):.10g}" for i in range(count))
+    return tuple(f"{factor}{low + (high - low) * i / (count - 1):.10g}" for i in range(count))
 
 
 def given(texts: list[str]) -> Sweep:
@@ -91,18 +87,18 @@ def _one(name: str, title: str, parameter: str, values: str, *sets: str) -> Swee
 LONG_POOL = ("plant.soil_size_m=[2.0, 0.56, 0.15]", "plant.soil_centre_m=[0.0, 0.0]")
 
 PREDEFINED = (
-    _one("soil-k", "Soil: k_φ", "plant.soil_kphi_N_m_n2", "4.8e6,5.4e6,6e6,6.6e6,7.2e6"),
-    _one("soil-n", "Soil: exponent n", "plant.soil_n", "1.06,1.08,1.1,1.12,1.14"),
-    _one("soil-shear", "Soil: shear length K", "plant.soil_shear_m", "0.003,0.005,0.008,0.012,0.02"),
-    _one("soil-phi", "Soil: friction angle φ", "plant.soil_friction_rad", "0.436,0.4800,0.5235987755982988,0.567,0.611"),
-    _one("tpcc-gain", "TPCC gain K_p", "controller.tpcc_kp_1_s2", "0,10,20,30,40"),
+    _one("soil-k", "Soil: k_φ", "plant.soil_kphi_N_m_n2", "x0.8:x1.2:5"),
+    _one("soil-n", "Soil: exponent n", "plant.soil_n", "x0.96:x1.04:5"),
+    _one("soil-shear", "Soil: shear length K", "plant.soil_shear_m", "x0.5,x0.75,x1,x1.5,x2.5"),
+    _one("soil-phi", "Soil: friction angle φ", "plant.soil_friction_rad", "x0.8:x1.2:5"),
+    _one("tpcc-gain", "TPCC gain K_p", "controller.tpcc_kp_1_s2", "x0,x0.5,x1,x1.5,x2"),
     _one("lpc-moves-cp", "CP moves with the landing", "controller.lpc_moves_cp", "off,on"),
     _one("cp-offset-x", "Sagittal offset of the CP", "controller.cp_offset_x_m",
          "0.0065,0.008,0.0085,0.009,0.0095,0.01,0.011"),
     _one("step-length", "Step length L_x", "controller.step_length_m", "-0.015,-0.0075,0.005,0.01,0.015,0.02,0.025",
          *LONG_POOL),
     _one("step-time", "Step time T", "controller.step_time_s", "0.35,0.375,0.4,0.45,0.5"),
-    _one("lpc-gain", "Landing control: K_L", "controller.lpc_gain", "0.15,0.3,0.45,0.6,0.9"),
+    _one("lpc-gain", "Landing control: K_L", "controller.lpc_gain", "x0.5,x1,x1.5,x2,x3"),
     _one("lpc-forget", "Landing control: λ", "controller.lpc_forget", "0,0.3,0.5,0.7,0.9"),
     _one("sensors", "Sensors", "scenario.sensors", "ideal,hoap2"),
     _one("soil-law", "Law of the soil", "plant.soil_law", "bekker,rft"),
