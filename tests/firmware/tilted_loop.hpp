@@ -4,6 +4,8 @@
 #ifndef HOAP2_TESTS_TILTED_LOOP_HPP
 #define HOAP2_TESTS_TILTED_LOOP_HPP
 
+#include <gtest/gtest.h>
+
 #include <vector>
 
 #include "gait_cp/footprints.hpp"
