@@ -85,7 +85,8 @@ void Ground::touch_floor(const State &state, const Floor &floor, const Mat3 &axe
                           (corner & 4) != 0 ? box.half_m.z : -box.half_m.z};
     const Vec3 arm_W_m = axes * arm_L_m;
     const double height_m = centre_height_m + dot(floor.normal_W(), arm_W_m);
-    if (height_m < 0.0) add(link, centre_W_m + arm_W_m, floor.normal_W(), -height_m, axes, contacts);
+    if (height_m >= 0.0 || floor.is_over_pool(centre_W_m + arm_W_m)) continue;
+    add(link, centre_W_m + arm_W_m, floor.normal_W(), -height_m, axes, contacts);
   }
 }
 
@@ -116,7 +117,7 @@ void Ground::find_contacts(const State &state, const Mat3 axes_W[HOAP2_LINKS], C
   contacts->count = 0;
   const Floor floor(state.params);
   for (int link = 0; link < HOAP2_LINKS; ++link) {
-    if (state.params.ground == HOAP2_GROUND_RIGID) touch_floor(state, floor, axes_W[link], link, contacts);
+    touch_floor(state, floor, axes_W[link], link, contacts);
     for (int block = 0; block < block_count_; ++block)
       touch_block(state, axes_W[link], link, block, contacts);
   }
