@@ -12,6 +12,7 @@ from hoap2.figures.walk_data import Walk
 from hoap2.report import CSS
 from hoap2.tables_shown import number
 
+OWN_CSS = ".numbers td:nth-child(-n+4) { white-space: nowrap; max-width: none; }"
 COLORS = (style.VERMILION, style.BLUE)
 ROWS = (
     ("roll (deg)", lambda walk: walk.chest_deg[:, 0]),
@@ -75,7 +76,7 @@ def write(folder: Path, walks: tuple[Walk, Walk], names: tuple[str, str], found:
     path.write_text(
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<style>{CSS}</style></head>\n<body><main>\n" + "\n".join(parts) + "\n</main></body></html>\n",
+        f"<style>{CSS}{OWN_CSS}</style></head>\n<body><main>\n" + "\n".join(parts) + "\n</main></body></html>\n",
         encoding="utf-8",
     )
     return path

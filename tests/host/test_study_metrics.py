@@ -177,3 +177,12 @@ def test_a_fall_that_the_scenario_shows_is_ok_and_says_so(capsys):
     assert "sand-walk: ok; as the chapter: fell backward at 8.95 s, step 18" in capsys.readouterr().out
     log.block("p.true_chest_rpy_rad")[:] = 0.0
     assert not summary_of(loaded, log)["ok"], "a walk that comes to its end is not what the chapter reports"
+
+
+def test_every_preset_that_comes_with_the_project_loads():
+    presets = soil_presets.load()
+    assert "chapter" in presets and len(presets) > 1
+    for name, content in presets.items():
+        assert content["title"] and content["source"], name
+        plant = scenario.load("sand-walk", [f"soil.preset={name}"]).values["plant"]
+        assert all(plant[key] == (value,) for key, value in content.items() if key not in soil_presets.WORDS)

@@ -86,6 +86,14 @@ def ending(document: dict, console: Console, study: str) -> None:
     console.print(f"study folder: {document['folder']}", soft_wrap=True)
 
 
+def _plain(value: str) -> str:
+    """A value of an axis, a number without needless digits."""
+    try:
+        return f"{float(value):.6g}"
+    except ValueError:
+        return value
+
+
 def parameter_map(document: dict, console: Console) -> None:
     """A table a sweep: a line a cell, the scenarios beside each other; a star marks the scenario's own value."""
     console = _wide(console)
@@ -94,14 +102,15 @@ def parameter_map(document: dict, console: Console) -> None:
             f"{name}\n{what}" for name in document["scenarios"] for what in ("survived (95 %)", "fell", "step (range)")
         ))  # fmt: skip
         for cell in sweep["cells"]:
-            values = [f"{value} *" if value == axis["own"] else value
+            values = [_plain(value) + (" *" if value == axis["own"] else "")
                       for axis, value in zip(sweep["axes"], cell["values"].values())]  # fmt: skip
             blocks = [cell[name.replace("-", "_")] for name in document["scenarios"]]
             columns = [
                 text for block in blocks for text in (fraction(block, "survived"), directions(block), falls(block))
             ]
             table.add_row(*values, *columns)
-        console.print(f"[bold]{sweep['title']}[/]")
+        console.print(f"[bold]{sweep['title']}[/]" + (f"  (with {', '.join(sweep['set'])})" if sweep["set"] else ""),
+                      soft_wrap=True)  # fmt: skip
         console.print(table)
         console.print()
     ending(document, console, "map")
