@@ -1,6 +1,7 @@
 #include "soil_tiles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hoap2 {
@@ -27,17 +28,11 @@ class Tiling {
   const SoilVertex &at(std::size_t row, std::size_t column) const {
     return soil_.vertices()[row * soil_.columns() + column];
   }
-  std::size_t step(const Tile &tile) const {
-    std::size_t step = kTile;
-    while (step > 1 && !fits(tile, step)) step /= 2;
-    return step;
-  }
+  bool fits(const Tile &cell) const;
   float lowest_m(const Tile &tile) const;
 
  private:
   static std::size_t tiles(std::size_t vertices) { return (vertices - 1 + kTile - 1) / kTile; }
-  bool fits(const Tile &tile, std::size_t step) const;
-  bool fits(const Tile &cell) const;
 
   const SoilSurface &soil_;
   std::size_t across_, along_;
@@ -65,20 +60,36 @@ bool Tiling::fits(const Tile &cell) const {
   return true;
 }
 
-// Calls visit(Tile) for each rectangle of a tile that is divided by `step`.
-template <class Visit>
-void each_cell(const Tile &tile, std::size_t step, Visit &&visit) {
-  for (std::size_t row = tile.first; row < tile.last; row += step) {
-    for (std::size_t column = tile.left; column < tile.right; column += step) {
-      visit(Tile{column, std::min(column + step, tile.right), row, std::min(row + step, tile.last)});
-    }
+// The two halves of a tile, side by side or one behind the other.
+std::array<Tile, 2> halves(const Tile &tile, bool across) {
+  std::array<Tile, 2> half = {tile, tile};
+  if (across) {
+    half[0].right = half[1].left = (tile.left + tile.right) / 2;
+  } else {
+    half[0].last = half[1].first = (tile.first + tile.last) / 2;
   }
+  return half;
 }
 
-bool Tiling::fits(const Tile &tile, std::size_t step) const {
-  bool all = true;
-  each_cell(tile, step, [&](const Tile &cell) { all = all && fits(cell); });
-  return all;
+// Calls visit(Tile) for rectangles that cover the tile and fit. It is divided where that leaves most
+// that fits; along a rut so that few and long ones do.
+template <class Visit>
+void each_fitting(const Tiling &tiling, const Tile &tile, Visit &&visit) {
+  const std::size_t width = tile.right - tile.left, length = tile.last - tile.first;
+  if ((width == 1 && length == 1) || tiling.fits(tile)) {
+    visit(tile);
+    return;
+  }
+  bool across = width >= length;
+  if (width > 1 && length > 1) {
+    const auto fitting = [&](bool side) {
+      const std::array<Tile, 2> half = halves(tile, side);
+      return static_cast<int>(tiling.fits(half[0])) + static_cast<int>(tiling.fits(half[1]));
+    };
+    const int in_width = fitting(true), in_length = fitting(false);
+    if (in_width != in_length) across = in_width > in_length;
+  }
+  for (const Tile &half : halves(tile, across)) each_fitting(tiling, half, visit);
 }
 
 float Tiling::lowest_m(const Tile &tile) const {
@@ -125,8 +136,7 @@ SoilMesh soil_mesh(const SoilSurface &soil) {
   const Tiling tiling(soil);
   for (std::size_t iy = 0; iy < tiling.along(); ++iy) {
     for (std::size_t ix = 0; ix < tiling.across(); ++ix) {
-      const Tile tile = tiling.tile(ix, iy);
-      each_cell(tile, tiling.step(tile), [&](const Tile &cell) {
+      each_fitting(tiling, tiling.tile(ix, iy), [&](const Tile &cell) {
         const std::size_t low = cell.first * soil.columns(), high = cell.last * soil.columns();
         add_rectangle(mesh.indices, low + cell.left, low + cell.right, high + cell.right, high + cell.left);
       });

@@ -14,9 +14,9 @@ struct SoilMesh {
   std::vector<uint32_t> indices;
 };
 
-// Tiles of kTile x kTile cells, each with the widest of the steps kTile, kTile / 2, ... 1 that keeps
-// height and colour within 0.15 mm. Neighbours of different steps do not meet exactly; a coarse
-// sheet close below shows through these cracks, so that they have the colour of the ground.
+// Tiles of kTile x kTile cells, halved again and again until each part keeps height and colour within
+// 0.15 mm. Neighbours of different sizes do not meet exactly; a coarse sheet close below shows through
+// these cracks, so that they have the colour of the ground.
 SoilMesh soil_mesh(const SoilSurface &soil);
 
 constexpr std::size_t kTile = 8;
