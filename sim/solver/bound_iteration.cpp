@@ -25,7 +25,7 @@ void BoundIteration::start(int count) {
   count_ = count;
   kept_ = calls_ = 0;
   low_ = 0.0;
-  high_ = std::numeric_limits<double>::infinity();
+  high_ = error_before_[0] = std::numeric_limits<double>::infinity();
 }
 
 // A single bound has a bracket: g(0) >= 0, and an error that is negative closes it. Where

@@ -161,7 +161,8 @@ bool ContactProblem::converge(BodyTree *tree) {
 // A bound that friction does not reach, neither as it is nor as it should be, may be off.
 bool ContactProblem::binds(const Row &row) {
   const Vector3 force_N = row.law.force_N(row.velocity_m_s);
-  return std::hypot(force_N[1], force_N[2]) >= std::min(row.friction * force_N[0], row.law.bound_N);
+  const double stick_N = std::hypot(row.velocity_m_s[1], row.velocity_m_s[2]) / row.law.slip_m_Ns;
+  return stick_N >= std::min(row.friction * force_N[0], row.law.bound_N);
 }
 
 double ContactProblem::bound_error_N() const {
