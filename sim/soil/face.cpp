@@ -71,14 +71,15 @@ CellsUnder::CellsUnder(const HeightField &field, const Face &face, const FacePos
       half_a_(face.half_a_m + margin_m),
       half_b_(face.half_b_m + margin_m),
       centre_(pose.centre_m) {
-  const double per_m = 1.0 / pose.m.z;
-  u_x_ = pose.b.y * per_m;
-  u_y_ = -pose.b.x * per_m;
-  v_x_ = -pose.a.y * per_m;
-  v_y_ = pose.a.x * per_m;
-  const double cell_m = field.cell_m();
-  step_a_ = cell_m * std::max(std::fabs(u_x_), std::fabs(u_y_));
-  step_b_ = cell_m * std::max(std::fabs(v_x_), std::fabs(v_y_));
+  const double cell_m = field.cell_m(), slant_m = cell_m / pose.m.z;
+  u_x_ = pose.b.y * slant_m;
+  u_y_ = -pose.b.x * slant_m;
+  v_x_ = -pose.a.y * slant_m;
+  v_y_ = pose.a.x * slant_m;
+  step_a_ = std::max(std::fabs(u_x_), std::fabs(u_y_));
+  step_b_ = std::max(std::fabs(v_x_), std::fabs(v_y_));
+  per_a_ = 1.0 / step_a_;
+  per_b_ = 1.0 / step_b_;
   const double reach_x_m = std::fabs(pose.a.x) * half_a_ + std::fabs(pose.b.x) * half_b_;
   const double reach_y_m = std::fabs(pose.a.y) * half_a_ + std::fabs(pose.b.y) * half_b_;
   const auto cell_of = [cell_m](double m, double low_m, int count) {

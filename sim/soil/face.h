@@ -15,6 +15,18 @@
 
 namespace hoap2_sim {
 
+// Which patch a point inside a face lies in.
+struct PatchGrid {
+  double half_a_m, half_b_m, per_patch_a_m, per_patch_b_m;
+  int patches_b;
+
+  int at(double u_m, double v_m) const {
+    const int i = static_cast<int>((u_m + half_a_m) * per_patch_a_m);
+    const int j = static_cast<int>((v_m + half_b_m) * per_patch_b_m);
+    return i * patches_b + j;
+  }
+};
+
 // A rectangle fixed in a link. Its axes a, b lie in it, m = a x b points into the link.
 struct Face {
   int link = 0;
@@ -27,40 +39,11 @@ struct Face {
   double per_patch_a_m = 0.0, per_patch_b_m = 0.0;  // 1 / size of a patch
 
   int patches() const { return patches_a * patches_b; }
-  int patch_at(double u_m, double v_m) const {
-    const int i = static_cast<int>((u_m + half_a_m) * per_patch_a_m);
-    const int j = static_cast<int>((v_m + half_b_m) * per_patch_b_m);
-    return std::min(i, patches_a - 1) * patches_b + std::min(j, patches_b - 1);
-  }
-  // A rectangle of the face by the patches it lies in: give(patch, part of the rectangle).
-  // By area, not by its middle: else what a sliding patch bears would flicker.
-  template <class Give>
-  void share_out(double u_m, double v_m, double half_u_m, double half_v_m, Give &&give) const;
-  double patch_u_m(int patch) const { return half_a_m * ((2 * (patch / patches_b) + 1.0) / patches_a - 1.0); }
-  double patch_v_m(int patch) const { return half_b_m * ((2 * (patch % patches_b) + 1.0) / patches_b - 1.0); }
+  PatchGrid patch_grid() const { return {half_a_m, half_b_m, per_patch_a_m, per_patch_b_m, patches_b}; }
+  double patch_u_m(int patch) const { return (patch / patches_b + 0.5) / per_patch_a_m - half_a_m; }
+  double patch_v_m(int patch) const { return (patch % patches_b + 0.5) / per_patch_b_m - half_b_m; }
+  double patch_m2() const { return 1.0 / (per_patch_a_m * per_patch_b_m); }
 };
-
-template <class Give>
-void Face::share_out(double u_m, double v_m, double half_u_m, double half_v_m, Give &&give) const {
-  const double low_a = (u_m - half_u_m + half_a_m) * per_patch_a_m,
-               high_a = (u_m + half_u_m + half_a_m) * per_patch_a_m;
-  const double low_b = (v_m - half_v_m + half_b_m) * per_patch_b_m,
-               high_b = (v_m + half_v_m + half_b_m) * per_patch_b_m;
-  const int i0 = std::max(0, static_cast<int>(low_a)), i1 = std::min(patches_a - 1, static_cast<int>(high_a));
-  const int j0 = std::max(0, static_cast<int>(low_b)), j1 = std::min(patches_b - 1, static_cast<int>(high_b));
-  if (i0 == i1 && j0 == j1) {
-    give(i0 * patches_b + j0, 1.0);
-    return;
-  }
-  const double per_area = 1.0 / ((high_a - low_a) * (high_b - low_b));
-  for (int i = i0; i <= i1; ++i) {
-    // The first and the last one take what sticks out of the face.
-    const double part_a = ((i == i1 ? high_a : i + 1.0) - (i == i0 ? low_a : i)) * per_area;
-    for (int j = j0; j <= j1; ++j) {
-      give(i * patches_b + j, part_a * ((j == j1 ? high_b : j + 1.0) - (j == j0 ? low_b : j)));
-    }
-  }
-}
 
 // Soles first (right, left), then the other faces link by link.
 std::vector<Face> list_faces(const hoap2_plant_params_t &params);
@@ -112,22 +95,30 @@ struct Window {
 struct CellPart {
   std::size_t index;
   double u_m, v_m;
-  double wide_a, wide_b;  // its size along a and b, in cells
+  double cells;  // its size along the ground
+};
 
-  double cells() const { return wide_a * wide_b; }
+// Whole cells in a row, all within the face: (u, v) is the middle of the first.
+struct CellRun {
+  std::size_t index;
+  int count;
+  double u_m, v_m;
+  double u_step_m, v_step_m;
 };
 
 // Cells whose centre is under the face; that at an edge stands also for what its outer
 // neighbour has under the face. So areas and centroids are exact, and the cell that
-// bears a load is the cell that remembers it. `visit(CellPart)` for each.
+// bears a load is the cell that remembers it.
 class CellsUnder {
  public:
   // margin_m widens the face on all sides.
   CellsUnder(const HeightField &field, const Face &face, const FacePose &pose, double margin_m = 0.0);
+  // `visit(CellPart)` for each.
   template <class Visit>
   void each(Visit &&visit) const;
-  double step_a_m() const { return step_a_; }
-  double step_b_m() const { return step_b_; }
+  // The same, with `visit_run(CellRun)` for the whole cells of a row.
+  template <class Visit, class VisitRun>
+  void each(Visit &&visit, VisitRun &&visit_run) const;
   // Cells that can be under the face.
   Window window() const { return {first_x_, first_y_, last_x_, last_y_}; }
 
@@ -135,17 +126,20 @@ class CellsUnder {
   // A centre exactly on the edge counts as inside, whatever the last digit says.
   static constexpr double kOnEdge_m = 1e-9;
 
-  static double edge(double distance_m, double per_step) {
-    const double steps = distance_m * per_step;
-    return steps < 1.0 - kOnEdge_m * per_step ? steps + 0.5 : 1.0;
-  }
+  struct Span {
+    int first, last;
+  };
+  // Columns of a row whose centres lie in |u| <= half_a, |v| <= half_b.
+  Span span(double u0, double v0, double half_a, double half_b) const;
   static void clip(double value, double rate, double half, double *low, double *high);
+  CellPart part_at(std::size_t index, double u, double v) const;
 
   const HeightField &field_;
   double half_a_, half_b_;
   Vec3 centre_;
-  double u_x_, u_y_, v_x_, v_y_;  // d(u, v) / d(x, y)
+  double u_x_, u_y_, v_x_, v_y_;  // d(u, v) from cell to cell
   double step_a_, step_b_;        // spacing of the cells along a and b
+  double per_a_, per_b_;          // 1 / that
   int first_x_, last_x_, first_y_, last_y_;
 };
 
@@ -160,37 +154,56 @@ inline void CellsUnder::clip(double value, double rate, double half, double *low
   *high = std::min(*high, std::max(one, two));
 }
 
+inline CellsUnder::Span CellsUnder::span(double u0, double v0, double half_a, double half_b) const {
+  double low = first_x_, high = last_x_;
+  clip(u0, u_x_, half_a, &low, &high);
+  clip(v0, v_x_, half_b, &low, &high);
+  if (!(low <= high)) return {0, -1};
+  return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high))};
+}
+
+// At an edge. `size`: of what a cell stands for towards an edge that is some steps away.
+inline CellPart CellsUnder::part_at(std::size_t index, double u, double v) const {
+  const auto size = [](double steps, double one) { return steps < one ? steps + 0.5 : 1.0; };
+  const double one_a = 1.0 - kOnEdge_m * per_a_, one_b = 1.0 - kOnEdge_m * per_b_;
+  const double ahead = size((half_a_ - u) * per_a_, one_a), behind = size((half_a_ + u) * per_a_, one_a);
+  const double left = size((half_b_ - v) * per_b_, one_b), right = size((half_b_ + v) * per_b_, one_b);
+  return {index, u + 0.5 * step_a_ * (ahead - behind), v + 0.5 * step_b_ * (left - right),
+          (ahead + behind - 1.0) * (left + right - 1.0)};
+}
+
+template <class Visit, class VisitRun>
+void CellsUnder::each(Visit &&visit, VisitRun &&visit_run) const {
+  const double cells_x = (field_.centre_x_m(0) - centre_.x) / field_.cell_m();
+  for (int iy = first_y_; iy <= last_y_; ++iy) {
+    const double cells_y = (field_.centre_y_m(iy) - centre_.y) / field_.cell_m();
+    const double u0 = u_x_ * cells_x + u_y_ * cells_y, v0 = v_x_ * cells_x + v_y_ * cells_y;
+    const Span all = span(u0, v0, half_a_ + kOnEdge_m, half_b_ + kOnEdge_m);
+    Span whole = span(u0, v0, half_a_ - step_a_, half_b_ - step_b_);
+    if (whole.first > whole.last) whole = {all.last + 1, all.last};
+    const std::size_t row = field_.index(0, iy);
+    const auto visit_to = [&](int first, int end) {
+      for (int ix = first; ix < end; ++ix) {
+        visit(part_at(row + static_cast<std::size_t>(ix), u0 + u_x_ * ix, v0 + v_x_ * ix));
+      }
+    };
+    visit_to(all.first, whole.first);
+    if (whole.first <= whole.last) {
+      visit_run(CellRun{row + static_cast<std::size_t>(whole.first), whole.last - whole.first + 1,
+                        u0 + u_x_ * whole.first, v0 + v_x_ * whole.first, u_x_, v_x_});
+    }
+    visit_to(whole.last + 1, all.last + 1);
+  }
+}
+
 template <class Visit>
 void CellsUnder::each(Visit &&visit) const {
-  const double cell_m = field_.cell_m();
-  const double per_a = 1.0 / step_a_, per_b = 1.0 / step_b_;
-  const double inner_a = half_a_ - step_a_, inner_b = half_b_ - step_b_;
-  const double x0_m = field_.centre_x_m(0) - centre_.x;
-  for (int iy = first_y_; iy <= last_y_; ++iy) {
-    const double y_m = field_.centre_y_m(iy) - centre_.y;
-    const double u0 = u_y_ * y_m, v0 = v_y_ * y_m;
-    double low_m = x0_m + first_x_ * cell_m - 0.5 * cell_m, high_m = x0_m + last_x_ * cell_m + 0.5 * cell_m;
-    clip(u0, u_x_, half_a_ + kOnEdge_m, &low_m, &high_m);
-    clip(v0, v_x_, half_b_ + kOnEdge_m, &low_m, &high_m);
-    if (low_m > high_m) continue;
-    const int first = std::max(first_x_, static_cast<int>(std::ceil((low_m - x0_m) / cell_m)));
-    const int last = std::min(last_x_, static_cast<int>(std::floor((high_m - x0_m) / cell_m)));
-    const std::size_t row = field_.index(0, iy);
-    for (int ix = first; ix <= last; ++ix) {
-      const double x_m = x0_m + ix * cell_m;
-      const double u = u0 + u_x_ * x_m, v = v0 + v_x_ * x_m;
-      CellPart part = {row + static_cast<std::size_t>(ix), u, v, 1.0, 1.0};
-      if (std::fabs(u) > inner_a || std::fabs(v) > inner_b) {
-        const double ahead = edge(half_a_ - u, per_a), behind = edge(half_a_ + u, per_a);
-        const double left = edge(half_b_ - v, per_b), right = edge(half_b_ + v, per_b);
-        part.u_m += 0.5 * step_a_ * (ahead - behind);
-        part.v_m += 0.5 * step_b_ * (left - right);
-        part.wide_a = ahead + behind - 1.0;
-        part.wide_b = left + right - 1.0;
-      }
-      visit(part);
+  each(visit, [&](const CellRun &run) {
+    for (int k = 0; k < run.count; ++k) {
+      visit(CellPart{run.index + static_cast<std::size_t>(k), run.u_m + k * run.u_step_m,
+                     run.v_m + k * run.v_step_m, 1.0});
     }
-  }
+  });
 }
 
 }  // namespace hoap2_sim

@@ -26,6 +26,34 @@ class FaceLoad {
     slope_vv_ += slope_v * v_m;
   }
 
+  // A row of normal forces at (u, v) + k (u_step, v_step): sums over k, with their moments in k.
+  struct Row {
+    double force = 0.0, force_k = 0.0;
+    double slope = 0.0, slope_k = 0.0, slope_kk = 0.0;
+
+    void press(double k, double force_N, double slope_Ns_m) {
+      force += force_N;
+      force_k += force_N * k;
+      slope += slope_Ns_m;
+      slope_k += slope_Ns_m * k;
+      slope_kk += slope_Ns_m * k * k;
+    }
+  };
+  void press(double u_m, double v_m, double u_step_m, double v_step_m, const Row &row) {
+    force_ += row.force;
+    force_u_ += u_m * row.force + u_step_m * row.force_k;
+    force_v_ += v_m * row.force + v_step_m * row.force_k;
+    slope_ += row.slope;
+    slope_u_ += u_m * row.slope + u_step_m * row.slope_k;
+    slope_v_ += v_m * row.slope + v_step_m * row.slope_k;
+    slope_uu_ +=
+        u_m * u_m * row.slope + 2.0 * u_m * u_step_m * row.slope_k + u_step_m * u_step_m * row.slope_kk;
+    slope_uv_ += u_m * v_m * row.slope + (u_m * v_step_m + v_m * u_step_m) * row.slope_k +
+                 u_step_m * v_step_m * row.slope_kk;
+    slope_vv_ +=
+        v_m * v_m * row.slope + 2.0 * v_m * v_step_m * row.slope_k + v_step_m * v_step_m * row.slope_kk;
+  }
+
   void shear(double u_m, double v_m, const ShearAnswer &answer) {
     along_a_ += answer.force_a_N;
     along_b_ += answer.force_b_N;

@@ -14,11 +14,11 @@ namespace hoap2_sim {
 struct Cell {
   double level_m;         // where the surface would be, had nothing pressed on it
   double memory_m;        // largest depth below the level that was pressed so far
-  double pressure_Pa;     // pressure that held the column at that depth
-  double stiffness_Pa_m;  // of unloading and reloading below it
+  double rut_m;           // depth of the surface now, without load: less than that, it springs back
+  double stiffness_Pa_m;  // of unloading and reloading between the two
 
-  double rebound_m() const { return pressure_Pa / stiffness_Pa_m; }
-  double surface_m() const { return level_m - memory_m + rebound_m(); }  // without load
+  double surface_m() const { return level_m - rut_m; }
+  double held_Pa() const { return stiffness_Pa_m * (memory_m - rut_m); }  // at the remembered depth
 };
 
 class HeightField {
@@ -47,6 +47,7 @@ class HeightField {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(ix);
   }
   std::size_t size() const { return cells_.size(); }
+  const Cell *cells() const { return cells_.data(); }
   const Cell &cell(std::size_t i) const { return cells_[i]; }
   Cell &cell(std::size_t i) { return cells_[i]; }
   double surface_m(int ix, int iy) const { return cells_[index(ix, iy)].surface_m(); }

@@ -31,48 +31,47 @@ void PressureLaw::build(const hoap2_plant_params_t &params) {
 // Never softer than the virgin tangent, nor than the virgin secant (n < 1): so the
 // unloaded surface is not above the level and unloading returns less than was put in.
 double PressureLaw::stiffness_Pa_m(double memory_m) const {
-  const double depth_m = memory_m > 0.0 ? memory_m : kFirstDepth_m;
-  return std::max(unload_Pa_m_ + unload_Pa_m2_ * memory_m,
-                  std::max(1.0, exponent_) * virgin_Pa(depth_m) / depth_m);
+  if (memory_m > 0.0) return stiffness_Pa_m(memory_m, virgin_Pa(memory_m));
+  return std::max(unload_Pa_m_, stiffness_Pa_m(kFirstDepth_m, virgin_Pa(kFirstDepth_m)));
 }
 
 // Resistance of a column that the plate does not touch yet but reaches within the tick,
 // as a pure damper: without it the first tick of a landing would be free of charge.
 double PressureLaw::approach(const Cell &cell, double reach_m, double down_m_s, double share) const {
-  const double room_m = cell.rebound_m();
+  const double room_m = cell.memory_m - cell.rut_m;
   double end_Pa = cell.stiffness_Pa_m * reach_m;
   if (cell.memory_m <= 0.0) {
     end_Pa = virgin_Pa(reach_m, share);
   } else if (reach_m > room_m) {
-    const double tangent_Pa_m = exponent_ * cell.pressure_Pa / cell.memory_m;
-    end_Pa = cell.pressure_Pa + tangent_Pa_m * (reach_m - room_m);
+    const double held_Pa = cell.held_Pa();
+    end_Pa = held_Pa + exponent_ * held_Pa / cell.memory_m * (reach_m - room_m);
   }
   return (end_Pa + damping_Pas_m_ * reach_m / kTick_s) / down_m_s;
 }
 
 Cell PressureLaw::pressed(Cell cell, double depth_m, double share) const {
-  const double elastic = elastic_Pa(cell, depth_m), limit_Pa = virgin_Pa(depth_m, share);
+  const double virgin = virgin_Pa(depth_m);
+  double held_Pa = virgin;
+  // With a limit that moves with the direction of motion the way there can be elastic.
+  if (depends_on_direction_) held_Pa = std::min(elastic_Pa(cell, depth_m), share * virgin);
   if (depth_m > cell.memory_m) {
     cell.memory_m = depth_m;
-    // With a limit that moves with the direction of motion the way there can be elastic.
-    cell.pressure_Pa = depends_on_direction_ ? std::min(elastic, limit_Pa) : limit_Pa;
-    cell.stiffness_Pa_m = stiffness_Pa_m(depth_m);
-  } else if (elastic > limit_Pa) {
-    cell.pressure_Pa -= elastic - limit_Pa;
+    cell.stiffness_Pa_m = stiffness_Pa_m(depth_m, virgin);
   }
+  cell.rut_m = depth_m - held_Pa / cell.stiffness_Pa_m;
   return cell;
 }
 
 void PressureLaw::lay(Cell *cell, double height_m) const {
   const double surface_m = cell->surface_m() + height_m;
   if (height_m > 0.0 && cell->memory_m > 0.0) {  // fills the rut first
-    const double rut_m = cell->memory_m - cell->rebound_m();
-    const double left = height_m < rut_m ? (rut_m - height_m) / rut_m : 0.0;
+    const double left = height_m < cell->rut_m ? (cell->rut_m - height_m) / cell->rut_m : 0.0;
+    const double held_Pa = depends_on_direction_ ? left * cell->held_Pa() : virgin_Pa(left * cell->memory_m);
     cell->memory_m *= left;
-    cell->pressure_Pa = depends_on_direction_ ? left * cell->pressure_Pa : virgin_Pa(cell->memory_m);
     cell->stiffness_Pa_m = stiffness_Pa_m(cell->memory_m);
+    cell->rut_m = cell->memory_m - held_Pa / cell->stiffness_Pa_m;
   }
-  cell->level_m = surface_m + cell->memory_m - cell->rebound_m();
+  cell->level_m = surface_m + cell->rut_m;
 }
 
 }  // namespace hoap2_sim

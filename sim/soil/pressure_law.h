@@ -32,7 +32,7 @@ class PressureLaw {
 
   // Pressure if the column only unloads and reloads; 0 and less: not touched.
   static double elastic_Pa(const Cell &cell, double depth_m) {
-    return cell.pressure_Pa - cell.stiffness_Pa_m * (cell.memory_m - depth_m);
+    return cell.stiffness_Pa_m * (depth_m - cell.rut_m);
   }
   // Whether the column gives way for good at this depth.
   bool yields(const Cell &cell, double depth_m, double share) const {
@@ -56,6 +56,10 @@ class PressureLaw {
   void lay(Cell *cell, double height_m) const;
 
  private:
+  // With the virgin pressure at that memory known.
+  double stiffness_Pa_m(double memory_m, double virgin) const {
+    return std::max(unload_Pa_m_ + unload_Pa_m2_ * memory_m, std::max(1.0, exponent_) * virgin / memory_m);
+  }
   // Of a limit that the pressure was brought to: rounding must not hide that.
   static constexpr double kAtYield = 1.0 - 1e-9;
 

@@ -39,27 +39,27 @@ std::string Soil::build(const hoap2_plant_params_t &params) {
   const std::string fault = field_.build(params);
   if (!fault.empty()) return fault;
   pool_ = pool_frame(params);
-  pressure_.build(params);
-  shear_law_.build(params.soil_shear_m, kTick_s);
-  const bool is_rft = pressure_.depends_on_direction();  // knows neither cohesion nor edges
-  cohesion_Pa_ = is_rft ? 0.0 : params.soil_cohesion_Pa;
-  tan_friction_ = std::tan(params.soil_friction_rad);
-  edge_loss_ = is_rft || params.soil_edge_m <= 0.0 ? 0.0 : params.soil_edge_loss;
-  per_edge_m_ = edge_loss_ > 0.0 ? 1.0 / params.soil_edge_m : 0.0;
+  contact_.build(params);
   faces_ = list_faces(params);
-  std::size_t most = 0, patches = 0;
+  std::size_t most = 0, patches = 0, first = 0;
+  link_faces_.clear();
   for (const Face &face : faces_) {
     most += most_cells(face, field_.cell_m());
     patches += static_cast<std::size_t>(face.patches());
     const double corner_m = norm(face.arm_L_m + face.half_a_m * face.a_L) +
                             norm(face.half_b_m * face.b_L);  // not less than the corner's
+    if (link_faces_.empty() || link_faces_.back().link != face.link) {
+      link_faces_.push_back({face.link, first, first});
+    }
+    link_faces_.back().end = ++first;
     radius_m_[face.link] = std::max(radius_m_[face.link], corner_m);
   }
   flow_.build(params, field_, faces_.size());
   shear_.assign(patches, PatchShear{});
   patch_.assign(patches, PatchTick{});
   is_sheared_.assign(faces_.size(), false);
-  face_tick_.assign(faces_.size(), FaceTick{});
+  presses_.assign(faces_.size(), false);
+  touched_.reserve(faces_.size());
   pressed_.reserve(most);
   posed_.reserve(faces_.size());
   start();
@@ -67,10 +67,10 @@ std::string Soil::build(const hoap2_plant_params_t &params) {
 }
 
 void Soil::start() {
-  field_.start(params_, pressure_.stiffness_Pa_m(0.0));
+  field_.start(params_, contact_.pressure().stiffness_Pa_m(0.0));
   flow_.start();
   std::fill(shear_.begin(), shear_.end(), PatchShear{});
-  std::fill(face_tick_.begin(), face_tick_.end(), FaceTick{});
+  touched_.clear();
   pressed_.clear();
   find_sheared();
   sinkage_m_[0] = sinkage_m_[1] = 0.0;
@@ -79,7 +79,7 @@ void Soil::start() {
 }
 
 void Soil::set_level(int ix, int iy, double level_m) {
-  field_.cell(field_.index(ix, iy)) = {level_m, 0.0, 0.0, pressure_.stiffness_Pa_m(0.0)};
+  field_.cell(field_.index(ix, iy)) = {level_m, 0.0, 0.0, contact_.pressure().stiffness_Pa_m(0.0)};
   field_.find_top();
   flow_.wake(0, {ix, iy, ix, iy});
 }
@@ -116,6 +116,17 @@ bool Soil::is_link_near(const State &state, int link) const {
   return height_m - radius_m_[link] - kTick_s * speed_m_s < field_.top_m();
 }
 
+// Whether all of the face is within the walls and above the bottom.
+bool Soil::is_inside(const Face &face, const FacePose &pose) const {
+  const auto reach_m = [&](double a, double b) {
+    return std::fabs(a) * face.half_a_m + std::fabs(b) * face.half_b_m;
+  };
+  const double x_m = reach_m(pose.a.x, pose.b.x), y_m = reach_m(pose.a.y, pose.b.y);
+  return field_.is_within_walls(pose.centre_m.x - x_m, pose.centre_m.y - y_m) &&
+         field_.is_within_walls(pose.centre_m.x + x_m, pose.centre_m.y + y_m) &&
+         pose.centre_m.z - reach_m(pose.a.z, pose.b.z) > -field_.depth_m();
+}
+
 // A sole must find ground wherever it is below the surface.
 std::string Soil::fault_of_sole(const Face &face, const FacePose &pose) const {
   const char *const name = face.foot == 0 ? "right" : "left";
@@ -142,142 +153,76 @@ std::string Soil::fault_of_sole(const Face &face, const FacePose &pose) const {
   return "";
 }
 
-void Soil::find_shares(const Face &face, const FacePose &pose, const FaceTwist &twist) {
-  PatchTick *const patch = &patch_[static_cast<std::size_t>(face.first_patch)];
-  for (int i = 0; i < face.patches(); ++i) {
-    const double u_m = face.patch_u_m(i), v_m = face.patch_v_m(i);
-    const Vec3 vel_m_s = twist.along_a_m_s(v_m) * pose.a + twist.along_b_m_s(u_m) * pose.b +
-                         twist.normal_m_s(u_m, v_m) * pose.m;
-    patch[i].share = rft_share(pose.m, vel_m_s);
+std::string Soil::load_face(std::size_t i, const State &state, const Mat3 axes_W[HOAP2_LINKS],
+                            SoilLoad *load) {
+  const Face &face = faces_[i];
+  const Mat3 &axes = axes_W[face.link];
+  if (dot(pool_.axes_W.cz, axes * face.m_L) <= kSteepest) return "";
+  FaceTwist twist;
+  const FacePose pose = pose_of(state, axes_W, face, &twist);
+  if (!is_near(face, pose, twist)) return "";
+  if (face.foot >= 0 && !is_inside(face, pose)) {
+    const std::string fault = fault_of_sole(face, pose);
+    if (!fault.empty()) return fault;
   }
-}
-
-// Share of the pressure that a sole finds near its edge, where the ground gives way sideways.
-inline double Soil::bearing(const Face &face, const CellPart &part) const {
-  const double inside_m = std::min(face.half_a_m - std::fabs(part.u_m), face.half_b_m - std::fabs(part.v_m));
-  return 1.0 - edge_loss_ * std::max(0.0, 1.0 - inside_m * per_edge_m_);
-}
-
-void Soil::press_face(const Face &face, const FacePose &pose, const FaceTwist &twist, FaceTick *tick,
-                      FaceLoad *sum) {
-  PatchTick *const patch = &patch_[static_cast<std::size_t>(face.first_patch)];
-  for (int i = 0; i < face.patches(); ++i) patch[i] = PatchTick{};
-  const bool is_rft = pressure_.depends_on_direction();
-  if (is_rft) find_shares(face, pose, twist);
-  const double per_m = 1.0 / pose.m.z;
-  const double cell_area_m2 = field_.cell_m() * field_.cell_m() * per_m * slope_share(pose);
-  const bool has_edge = edge_loss_ > 0.0 && face.foot >= 0;
-  FaceLoad load;
+  FaceLoad sum;
   const CellsUnder cells(field_, face, pose);
-  const double half_step_a_m = 0.5 * cells.step_a_m(), half_step_b_m = 0.5 * cells.step_b_m();
-  cells.each([&](const CellPart &part) {
-    const Cell *cell = &field_.cell(part.index);
-    const double depth_m = cell->level_m - pose.height_m(part.u_m, part.v_m);
-    const double down_m_s = -per_m * twist.normal_m_s(part.u_m, part.v_m);
-    const double share = is_rft ? patch[face.patch_at(part.u_m, part.v_m)].share.normal : 1.0;
-    if (depth_m > 0.0 && pressure_.yields(*cell, depth_m, share)) {
-      pressed_.push_back({part.index, pressure_.pressed(*cell, depth_m, share)});
-      cell = &pressed_.back().cell;
-    }
-    const Response answer = pressure_.respond(*cell, depth_m, down_m_s, share);
-    if (answer.resistance_Pas_m <= 0.0 && answer.pressure_Pa <= 0.0) return;
-    const double area_m2 = cell_area_m2 * part.cells();
-    const double bearing_m2 = has_edge ? area_m2 * bearing(face, part) : area_m2;
-    const double force_N = bearing_m2 * answer.pressure_Pa;
-    load.press(part.u_m, part.v_m, force_N, bearing_m2 * per_m * answer.resistance_Pas_m);
-    if (answer.pressure_Pa <= 0.0) return;
-    face.share_out(part.u_m, part.v_m, half_step_a_m * part.wide_a, half_step_b_m * part.wide_b,
-                   [&](int i, double of_it) {
-                     patch[i].normal_N += of_it * force_N;
-                     patch[i].area_m2 += of_it * area_m2;
-                   });
-  });
-  tick->under = cells.window();
-  *sum = load;
-}
-
-void Soil::shear_face(const Face &face, const FaceTwist &twist, FaceLoad *sum) {
-  const auto first = static_cast<std::size_t>(face.first_patch);
-  const bool is_rft = pressure_.depends_on_direction();
-  for (int i = 0; i < face.patches(); ++i) {
-    PatchTick &patch = patch_[first + static_cast<std::size_t>(i)];
-    if (patch.normal_N <= 0.0) continue;
-    const double limit_N = is_rft ? patch.share.shear_ratio * patch.normal_N
-                                  : cohesion_Pa_ * patch.area_m2 + tan_friction_ * patch.normal_N;
-    const double u_m = face.patch_u_m(i), v_m = face.patch_v_m(i);
-    const double along_a_m_s = twist.along_a_m_s(v_m), along_b_m_s = twist.along_b_m_s(u_m);
-    patch.shear = shear_[first + static_cast<std::size_t>(i)];
-    if (patch.shear.peak_N > 0.0) {  // touched a tick ago: it has moved since
-      shear_law_.move(&patch.shear, limit_N, kTick_s * along_a_m_s, kTick_s * along_b_m_s,
-                      kTick_s * twist.omega_rad_s.z);
-    } else {
-      patch.shear.peak_N = limit_N;
-    }
-    sum->shear(u_m, v_m, shear_law_.respond(patch.shear, limit_N, along_a_m_s, along_b_m_s));
-  }
+  PatchTick *const patch = &patch_[static_cast<std::size_t>(face.first_patch)];
+  const std::size_t first_pressed = pressed_.size();
+  contact_.press(field_, face, pose, twist, cells, patch, &pressed_, &sum);
+  if (!sum.any()) return "";
+  touched_.push_back({i, sum.presses(), first_pressed, pressed_.size(), cells.window()});
+  contact_.shear(face, pose, twist, &shear_[static_cast<std::size_t>(face.first_patch)], patch, &sum);
+  SpatialVector wrench_W;
+  SpatialInertia slope_W;
+  sum.find(face, axes, &wrench_W, &slope_W);
+  add_load(wrench_W, slope_W, load);
+  return "";
 }
 
 std::string Soil::find_loads(const State &state, const Mat3 axes_W[HOAP2_LINKS], SoilLoad load[HOAP2_LINKS]) {
   for (int link = 0; link < HOAP2_LINKS; ++link) load[link].touches = false;
   pressed_.clear();
-  int link_seen = -1;
-  bool link_near = false;
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const Face &face = faces_[i];
-    FaceTick &tick = face_tick_[i];
-    tick.presses = false;
-    tick.first_pressed = tick.end_pressed = pressed_.size();
-    if (face.link != link_seen) {
-      link_seen = face.link;
-      link_near = is_link_near(state, face.link);
-    }
-    if (!link_near) continue;
-    FaceTwist twist;
-    const FacePose pose = pose_of(state, axes_W, face, &twist);
-    if (!is_near(face, pose, twist)) continue;
-    if (face.foot >= 0) {
-      const std::string fault = fault_of_sole(face, pose);
+  touched_.clear();
+  for (const LinkFaces &faces : link_faces_) {
+    if (!is_link_near(state, faces.link)) continue;
+    for (std::size_t i = faces.first; i < faces.end; ++i) {
+      const std::string fault = load_face(i, state, axes_W, &load[faces.link]);
       if (!fault.empty()) return fault;
     }
-    FaceLoad sum;
-    press_face(face, pose, twist, &tick, &sum);
-    tick.end_pressed = pressed_.size();
-    if (!sum.any()) continue;
-    tick.presses = sum.presses();
-    shear_face(face, twist, &sum);
-    SpatialVector wrench_W;
-    SpatialInertia slope_W;
-    sum.find(face, axes_W[face.link], &wrench_W, &slope_W);
-    add_load(wrench_W, slope_W, &load[face.link]);
   }
   return "";
 }
 
 // What the tick's start did to the ground becomes its memory.
-void Soil::keep_face(std::size_t i, const State &next, const Mat3 next_axes_W[HOAP2_LINKS]) {
-  const Face &face = faces_[i];
-  const FaceTick &tick = face_tick_[i];
+void Soil::keep(const TouchedFace &touched) {
+  const std::size_t i = touched.face;
   const double cell_m2 = field_.cell_m() * field_.cell_m();
-  for (std::size_t k = tick.first_pressed; k < tick.end_pressed; ++k) {
+  double sunk_m3 = 0.0;
+  for (std::size_t k = touched.first_pressed; k < touched.end_pressed; ++k) {
     Cell &cell = field_.cell(pressed_[k].index);
     if (pressed_[k].cell.memory_m < cell.memory_m) continue;  // another face pressed deeper
-    const double sunk_m3 = cell_m2 * (cell.surface_m() - pressed_[k].cell.surface_m());
-    flow_.displace(i, params_.soil_heave * sunk_m3);
-    compacted_m3_ += (1.0 - params_.soil_heave) * sunk_m3;
+    sunk_m3 += cell_m2 * (cell.surface_m() - pressed_[k].cell.surface_m());
     cell = pressed_[k].cell;
   }
-  if (tick.end_pressed > tick.first_pressed) flow_.wake(i, tick.under);
-  if (!tick.presses && !is_sheared_[i]) return;
-  const auto first = static_cast<std::size_t>(face.first_patch);
-  for (std::size_t k = first; k < first + static_cast<std::size_t>(face.patches()); ++k) {
-    shear_[k] = tick.presses ? patch_[k].shear : PatchShear{};
+  if (touched.end_pressed > touched.first_pressed) {
+    flow_.displace(i, params_.soil_heave * sunk_m3);
+    compacted_m3_ += (1.0 - params_.soil_heave) * sunk_m3;
+    flow_.wake(i, touched.under);
   }
-  if (!tick.presses) {  // it has just left: what it held can slide now
-    FaceTwist twist;
-    const FacePose pose = pose_of(next, next_axes_W, face, &twist);
-    if (pose.m.z > kSteepest) flow_.wake(i, CellsUnder(field_, face, pose).window());
-  }
-  is_sheared_[i] = tick.presses;
+  if (!touched.presses) return;
+  const auto first = static_cast<std::size_t>(faces_[i].first_patch);
+  const auto end = first + static_cast<std::size_t>(faces_[i].patches());
+  for (std::size_t k = first; k < end; ++k) shear_[k] = patch_[k].shear;
+}
+
+// The face has just left the ground: what it held can slide now.
+void Soil::leave(std::size_t i, const State &next, const Mat3 next_axes_W[HOAP2_LINKS]) {
+  const Face &face = faces_[i];
+  std::fill_n(shear_.begin() + face.first_patch, face.patches(), PatchShear{});
+  FaceTwist twist;
+  const FacePose pose = pose_of(next, next_axes_W, face, &twist);
+  if (pose.m.z > kSteepest) flow_.wake(i, CellsUnder(field_, face, pose).window());
 }
 
 void Soil::run_flow(const State &next, const Mat3 next_axes_W[HOAP2_LINKS]) {
@@ -287,19 +232,25 @@ void Soil::run_flow(const State &next, const Mat3 next_axes_W[HOAP2_LINKS]) {
     const FacePose pose = pose_of(next, next_axes_W, face, &twist);
     posed_.push_back({&face, pose, is_near(face, pose, twist)});
   }
-  flow_.run(posed_, tick_ / Flow::kTicks % 2 != 0, pressure_, &field_);
+  flow_.run(posed_, tick_ / Flow::kTicks % 2 != 0, contact_.pressure(), &field_);
 }
 
 void Soil::commit(const State &next, const Mat3 next_axes_W[HOAP2_LINKS]) {
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const Face &face = faces_[i];
-    if (face.foot >= 0) {
-      const bool presses = face_tick_[i].presses;
-      FaceTwist twist;
-      sinkage_m_[face.foot] = presses ? -pose_of(next, next_axes_W, face, &twist).centre_m.z : 0.0;
-    }
-    keep_face(i, next, next_axes_W);
+  std::fill(presses_.begin(), presses_.end(), false);
+  for (const TouchedFace &touched : touched_) {
+    presses_[touched.face] = touched.presses;
+    keep(touched);
   }
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    if (is_sheared_[i] && !presses_[i]) leave(i, next, next_axes_W);
+  }
+  is_sheared_.swap(presses_);
+  for (std::size_t foot = 0; foot < 2; ++foot) {  // the soles are the first faces
+    FaceTwist twist;
+    sinkage_m_[foot] = is_sheared_[foot] ? -pose_of(next, next_axes_W, faces_[foot], &twist).centre_m.z : 0.0;
+  }
+  touched_.clear();
+  pressed_.clear();
   ++tick_;
   if (tick_ % Flow::kTicks == 0 && !flow_.is_idle()) run_flow(next, next_axes_W);
 }

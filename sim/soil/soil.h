@@ -15,11 +15,9 @@
 #include "hoap2_plant/plant.h"
 #include "plant_state.h"
 #include "soil/face.h"
-#include "soil/face_load.h"
+#include "soil/face_contact.h"
 #include "soil/flow.h"
 #include "soil/height_field.h"
-#include "soil/pressure_law.h"
-#include "soil/rft.h"
 #include "soil/shear.h"
 
 namespace hoap2_sim {
@@ -61,45 +59,37 @@ class Soil {
   void set_level(int ix, int iy, double level_m);
 
  private:
-  // A patch and a face within one tick.
-  struct PatchTick {
-    double normal_N = 0.0, area_m2 = 0.0;
-    RftShare share;
-    PatchShear shear;
+  struct LinkFaces {
+    int link;
+    std::size_t first, end;
   };
-  struct FaceTick {
-    bool presses = false;
-    std::size_t first_pressed = 0, end_pressed = 0;
+  // Within one tick.
+  struct TouchedFace {
+    std::size_t face;
+    bool presses;
+    std::size_t first_pressed, end_pressed;
     Window under;
-  };
-  struct Pressed {
-    std::size_t index;
-    Cell cell;
   };
 
   FacePose pose_of(const State &state, const Mat3 axes_W[HOAP2_LINKS], const Face &face,
                    FaceTwist *twist) const;
   bool is_near(const Face &face, const FacePose &pose, const FaceTwist &twist) const;
   bool is_link_near(const State &state, int link) const;
+  bool is_inside(const Face &face, const FacePose &pose) const;
   std::string fault_of_sole(const Face &face, const FacePose &pose) const;
-  double bearing(const Face &face, const CellPart &part) const;
-  void find_shares(const Face &face, const FacePose &pose, const FaceTwist &twist);
-  void press_face(const Face &face, const FacePose &pose, const FaceTwist &twist, FaceTick *tick,
-                  FaceLoad *sum);
-  void shear_face(const Face &face, const FaceTwist &twist, FaceLoad *sum);
-  void keep_face(std::size_t i, const State &next, const Mat3 next_axes_W[HOAP2_LINKS]);
+  std::string load_face(std::size_t i, const State &state, const Mat3 axes_W[HOAP2_LINKS], SoilLoad *load);
+  void keep(const TouchedFace &touched);
+  void leave(std::size_t i, const State &next, const Mat3 next_axes_W[HOAP2_LINKS]);
   void run_flow(const State &next, const Mat3 next_axes_W[HOAP2_LINKS]);
   void find_sheared();
   std::string fault_of_block(const void *from) const;
 
   hoap2_plant_params_t params_ = {};
   PoolFrame pool_;
-  PressureLaw pressure_;
-  ShearLaw shear_law_;
-  double cohesion_Pa_ = 0.0, tan_friction_ = 0.0;
-  double edge_loss_ = 0.0, per_edge_m_ = 0.0;
+  FaceContact contact_;
   double radius_m_[HOAP2_LINKS] = {};  // of the link's box about its CoM
   std::vector<Face> faces_;
+  std::vector<LinkFaces> link_faces_;
 
   // The mutable block.
   HeightField field_;
@@ -109,10 +99,10 @@ class Soil {
   double compacted_m3_ = 0.0;
   std::int64_t tick_ = 0;
 
-  std::vector<bool> is_sheared_;  // faces with any patch in shear_
+  std::vector<char> is_sheared_, presses_;  // faces that hold any patch in shear_
   std::vector<PatchTick> patch_;
-  std::vector<FaceTick> face_tick_;
-  std::vector<Pressed> pressed_;
+  std::vector<TouchedFace> touched_;
+  std::vector<PressedCell> pressed_;
   std::vector<PosedFace> posed_;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kSoilMagic = 0x314c494f5350414fULL;
 constexpr double kForceLimit_N = 1e9;
-constexpr double kPressureLimit_Pa = 1e15;
+constexpr double kLeastRut_m = 1e-9;  // rounding
 constexpr double kHighest_m = 20.0;
 constexpr std::int64_t kMostTicks = std::int64_t{1} << 53;
 constexpr double kMostVolume_m3 = 1e4, kTinyVolume_m3 = 1e-9;
@@ -24,7 +24,7 @@ struct SoilHead {
 };
 
 struct SavedCell {
-  double level_m, memory_m, pressure_Pa;
+  double level_m, memory_m, rut_m;
 };
 
 template <class T>
@@ -56,7 +56,7 @@ void Soil::save(void *to) const {
   put(SoilHead{kSoilMagic, state_bytes(), tick_, {sinkage_m_[0], sinkage_m_[1]}, compacted_m3_}, &bytes);
   for (std::size_t i = 0; i < field_.size(); ++i) {
     const Cell &cell = field_.cell(i);
-    put(SavedCell{cell.level_m, cell.memory_m, cell.pressure_Pa}, &bytes);
+    put(SavedCell{cell.level_m, cell.memory_m, cell.rut_m}, &bytes);
   }
   for (const PatchShear &shear : shear_) put(shear, &bytes);
   for (const Flow::Memory &memory : flow_.memory()) put(memory, &bytes);
@@ -75,8 +75,7 @@ std::string Soil::fault_of_block(const void *from) const {
   for (std::size_t i = 0; i < field_.size(); ++i) {
     const auto cell = take<SavedCell>(&bytes);
     is_good &= is_within(cell.level_m, -field_.depth_m(), kHighest_m) &&
-               is_within(cell.memory_m, 0.0, deepest_m) &&
-               is_within(cell.pressure_Pa, 0.0, kPressureLimit_Pa);
+               is_within(cell.memory_m, 0.0, deepest_m) && is_within(cell.rut_m, -kLeastRut_m, cell.memory_m);
   }
   for (std::size_t i = 0; i < shear_.size(); ++i) {
     const auto shear = take<PatchShear>(&bytes);
@@ -105,11 +104,12 @@ std::string Soil::restore(const void *from) {
   std::copy(head.sinkage_m, head.sinkage_m + 2, sinkage_m_);
   for (std::size_t i = 0; i < field_.size(); ++i) {
     const auto cell = take<SavedCell>(&bytes);
-    field_.cell(i) = {cell.level_m, cell.memory_m, cell.pressure_Pa, pressure_.stiffness_Pa_m(cell.memory_m)};
+    field_.cell(i) = {cell.level_m, cell.memory_m, cell.rut_m,
+                      contact_.pressure().stiffness_Pa_m(cell.memory_m)};
   }
   for (PatchShear &shear : shear_) shear = take<PatchShear>(&bytes);
   for (Flow::Memory &memory : flow_.memory()) memory = take<Flow::Memory>(&bytes);
-  std::fill(face_tick_.begin(), face_tick_.end(), FaceTick{});
+  touched_.clear();
   pressed_.clear();
   field_.find_top();
   find_sheared();
@@ -119,8 +119,8 @@ std::string Soil::restore(const void *from) {
 void Soil::find_sheared() {
   for (std::size_t i = 0; i < faces_.size(); ++i) {
     const auto first = shear_.begin() + faces_[i].first_patch;
-    is_sheared_[i] = std::any_of(first, first + faces_[i].patches(),
-                                 [](const PatchShear &shear) { return shear.peak_N > 0.0; });
+    const auto is_held = [](const PatchShear &shear) { return shear.peak_N > 0.0; };
+    is_sheared_[i] = std::any_of(first, first + faces_[i].patches(), is_held);
   }
 }
 

@@ -30,6 +30,26 @@ class SoilRig {
   SoilRig() {
     hoap2_plant_params_defaults(&params);
     params.ground = HOAP2_GROUND_SOIL;
+    // The tests' own ground, whatever the defaults are tuned to.
+    params.soil_kc_N_m_n1 = 0.0;
+    params.soil_kphi_N_m_n2 = 6e6;
+    params.soil_n = 1.1;
+    params.soil_cohesion_Pa = 200.0;
+    params.soil_friction_rad = 0.5235987755982988;
+    params.soil_shear_m = 0.008;
+    params.soil_unload_Pa_m = 1e8;
+    params.soil_unload_Pa_m2 = 0.0;
+    params.soil_damping_Pas_m = 4e4;
+    params.soil_edge_loss = 0.3;
+    params.soil_edge_m = 0.01;
+    params.soil_rft_zeta = 1.4;
+    params.soil_heave = 0.25;
+    params.soil_repose_rad = 0.5585053606381855;
+    params.soil_roughness_m = 0.0;
+    params.soil_roughness_length_m = 0.02;
+    params.soil_cell_m = 0.005;
+    params.soil_patches[0] = 10;
+    params.soil_patches[1] = 6;
   }
 
   // Everything far above the pool, at rest.

@@ -111,6 +111,7 @@ TEST(SoilShear, NeverExceedsWhatTheLoadBears) {
 // A sole turned about its middle: torque by patches against the integral.
 double turning_torque_Nm(int patches_a, int patches_b) {
   ShearedSole rig;
+  rig.params.soil_cell_m = 0.00125;  // finer than the patches
   rig.params.soil_patches[0] = patches_a;
   rig.params.soil_patches[1] = patches_b;
   rig.start();
