@@ -141,7 +141,8 @@ def test_the_scale_is_left_out_where_it_does_not_fit() -> None:
     assert picture[:60, 480:].any() and not picture[80:].any() and not picture[:, :320].any()
 
 
-@pytest.mark.parametrize(("depth_m", "scale_m"), [(0.0, 0.01), (0.0031, 0.005), (0.0099, 0.01), (0.015, 0.02), (9.0, 0.2)])
+@pytest.mark.parametrize(("depth_m", "scale_m"),
+                         [(0.0, 0.01), (0.0031, 0.005), (0.0099, 0.01), (0.015, 0.02), (9.0, 0.2)])  # fmt: skip
 def test_the_scale_ends_at_a_round_depth(sand_dir: Path, depth_m: float, scale_m: float) -> None:
     run = recording.load(sand_dir)
     run.signal["true_sinkage_m"] = np.array([[0.0, np.nan], [depth_m, 0.0]])
