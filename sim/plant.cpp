@@ -133,7 +133,7 @@ void Plant::save(void *bytes) const {
 }
 
 int Plant::restore(const void *bytes, std::size_t size) {
-  if (size < sizeof(State)) return fail("the block is too short for a plant state");
+  if (size < sizeof(State)) return fail("the block is not a state of this plant: too short");
   State saved;
   std::memcpy(&saved, bytes, sizeof saved);
   if (saved.magic != kStateMagic || saved.version != kStateVersion || saved.size != size) {
