@@ -26,7 +26,7 @@ def _folder(run: str) -> Path:
 
 def command(
     run: Annotated[str, typer.Argument(metavar="RUN", help="A run folder, or a scenario (its latest run in out/).")],
-    t: Annotated[list[float], typer.Option("--t", "--time", metavar="SECONDS", help="The moment; several make a strip.")],
+    t: Annotated[list[float], typer.Option("--t", "--time", metavar="SECONDS", help="Moment; several make a strip.")],
     out: Annotated[Path | None, typer.Option(metavar="FILE.png", help="Where; else in the run folder.")] = None,
     view: Annotated[str, typer.Option(help="quarter, side, front, back, top, feet, or pool (of soil).")] = "quarter",
     size: Annotated[str | None, typer.Option(metavar="WxH", help="Pixels of each picture.")] = None,
