@@ -59,8 +59,9 @@ void Flow::mark_under(const PosedFace &posed, const HeightField &field) {
   });
 }
 
-void Flow::raise_rim(std::size_t i, const PosedFace &posed, const PressureLaw &law, HeightField *field) {
-  if (posed.pose.m.z <= kSteepest) return;
+void Flow::raise_rim(const PosedFace &posed, const PressureLaw &law, HeightField *field) {
+  const std::size_t i = posed.number;
+  if (memory_[i].pending_m3 <= 0.0 || posed.pose.m.z <= kSteepest) return;
   const CellsUnder ring(*field, *posed.face, posed.pose, ring_m_);
   const double half_a_m = posed.face->half_a_m, half_b_m = posed.face->half_b_m;
   const auto is_rim = [&](const CellPart &part) {
@@ -129,9 +130,7 @@ void Flow::run(const std::vector<PosedFace> &faces, bool is_odd, const PressureL
   for (const PosedFace &posed : faces) {
     if (posed.is_near) mark_under(posed, *field);
   }
-  for (std::size_t i = 0; i < memory_.size(); ++i) {
-    if (memory_[i].pending_m3 > 0.0) raise_rim(i, faces[i], law, field);
-  }
+  for (const PosedFace &posed : faces) raise_rim(posed, law, field);
   for (Memory &memory : memory_) {
     if (!memory.moving.empty()) sweep(&memory.moving, is_odd, law, field);
   }

@@ -16,6 +16,7 @@ namespace hoap2_sim {
 // A face and where it is now.
 struct PosedFace {
   const Face *face;
+  std::size_t number;
   FacePose pose;
   bool is_near;
 };
@@ -42,12 +43,13 @@ class Flow {
   // Cells of this window, and their neighbours, may be too steep now.
   void wake(std::size_t face, const Window &window);
 
-  // Rims, then one sweep over all that moves. `is_odd` alternates the sense of the sweep.
+  // Rims, then one sweep over all that moves. `faces`: those that are near the ground or
+  // have volume pending. `is_odd` alternates the sense of the sweep.
   void run(const std::vector<PosedFace> &faces, bool is_odd, const PressureLaw &law, HeightField *field);
 
  private:
   void mark_under(const PosedFace &posed, const HeightField &field);
-  void raise_rim(std::size_t i, const PosedFace &posed, const PressureLaw &law, HeightField *field);
+  void raise_rim(const PosedFace &posed, const PressureLaw &law, HeightField *field);
   void sweep(Window *window, bool is_odd, const PressureLaw &law, HeightField *field);
   bool level_pair(int ix, int iy, int jx, int jy, double limit_m, const PressureLaw &law, HeightField *field);
   Window within(const Window &window) const;

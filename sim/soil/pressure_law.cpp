@@ -49,19 +49,6 @@ double PressureLaw::approach(const Cell &cell, double reach_m, double down_m_s, 
   return (end_Pa + damping_Pas_m_ * reach_m / kTick_s) / down_m_s;
 }
 
-Cell PressureLaw::pressed(Cell cell, double depth_m, double share) const {
-  const double virgin = virgin_Pa(depth_m);
-  double held_Pa = virgin;
-  // With a limit that moves with the direction of motion the way there can be elastic.
-  if (depends_on_direction_) held_Pa = std::min(elastic_Pa(cell, depth_m), share * virgin);
-  if (depth_m > cell.memory_m) {
-    cell.memory_m = depth_m;
-    cell.stiffness_Pa_m = stiffness_Pa_m(depth_m, virgin);
-  }
-  cell.rut_m = depth_m - held_Pa / cell.stiffness_Pa_m;
-  return cell;
-}
-
 void PressureLaw::lay(Cell *cell, double height_m) const {
   const double surface_m = cell->surface_m() + height_m;
   if (height_m > 0.0 && cell->memory_m > 0.0) {  // fills the rut first

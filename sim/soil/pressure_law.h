@@ -41,7 +41,15 @@ class PressureLaw {
     return elastic > 0.0 && (depth_m > cell.memory_m || elastic > virgin_Pa(depth_m, share));
   }
   // The column after it was held at a depth at which it yields.
-  Cell pressed(Cell cell, double depth_m, double share) const;
+  Cell pressed(const Cell &cell, double depth_m, double share) const {
+    const double virgin = virgin_Pa(depth_m);
+    double held_Pa = virgin;
+    // With a limit that moves with the direction of motion the way there can be elastic.
+    if (depends_on_direction_) held_Pa = std::min(elastic_Pa(cell, depth_m), share * virgin);
+    const bool deeper = depth_m > cell.memory_m;
+    const double stiffness = deeper ? stiffness_Pa_m(depth_m, virgin) : cell.stiffness_Pa_m;
+    return {cell.level_m, deeper ? depth_m : cell.memory_m, depth_m - held_Pa / stiffness, stiffness};
+  }
 
   // A tick that starts at this depth with this downward velocity, on a column that
   // does not yield there any more.

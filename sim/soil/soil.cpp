@@ -227,10 +227,14 @@ void Soil::leave(std::size_t i, const State &next, const Mat3 next_axes_W[HOAP2_
 
 void Soil::run_flow(const State &next, const Mat3 next_axes_W[HOAP2_LINKS]) {
   posed_.clear();
-  for (const Face &face : faces_) {
-    FaceTwist twist;
-    const FacePose pose = pose_of(next, next_axes_W, face, &twist);
-    posed_.push_back({&face, pose, is_near(face, pose, twist)});
+  for (const LinkFaces &faces : link_faces_) {
+    const bool link_near = is_link_near(next, faces.link);
+    for (std::size_t i = faces.first; i < faces.end; ++i) {
+      if (!link_near && flow_.memory()[i].pending_m3 <= 0.0) continue;
+      FaceTwist twist;
+      const FacePose pose = pose_of(next, next_axes_W, faces_[i], &twist);
+      posed_.push_back({&faces_[i], i, pose, is_near(faces_[i], pose, twist)});
+    }
   }
   flow_.run(posed_, tick_ / Flow::kTicks % 2 != 0, contact_.pressure(), &field_);
 }
