@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from . import c_headers, fmi, fmi_pages, mjcf, pages, ssp, urdf
+from . import c_headers, fmi, fmi_pages, lcm_types, mjcf, pages, ssp, urdf
 from .tables import PRODUCTS, ROOT, Table, load
 
 
@@ -22,6 +22,7 @@ def outputs() -> dict[str, str]:
         "sim/model/hoap2_mjcf.xml": mjcf.mjcf(table),
         "docs/generated/signals.md": pages.signals_page(table),
         **_fmu_outputs(table),
+        **_telemetry_outputs(table),
     }
 
 
@@ -33,6 +34,12 @@ def _fmu_outputs(table: Table) -> dict[str, str]:
         out[f"fmu/generated/{product}_fmi3.xml"] = fmi.fmi3_xml(table, product)
         out[f"fmu/generated/{product}.html"] = fmi_pages.page(table, product)
     return out
+
+
+def _telemetry_outputs(table: Table) -> dict[str, str]:
+    folder = "host_tools/telemetry"
+    out = {f"{folder}/types/generated/{name}": text for name, text in lcm_types.files(table).items()}
+    return out | {f"{folder}/generated/places.hpp": lcm_types.places_header(table)}
 
 
 def main() -> int:

@@ -13,6 +13,7 @@ ROBOT_JSON = ROOT / "firmware" / "hoap2.json"
 SIGNALS_TOML = ROOT / "firmware" / "signals.toml"
 PRODUCTS = ("controller", "plant")
 GROUPS = ("input", "output", "parameter")
+MESSAGES = ("state", "gait", "truth")  # the LCM messages that carry outputs
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,7 @@ class Signal:
     tunable: bool
     enum: str
     text: str
+    telemetry: str = ""  # the LCM message that carries this output
 
     @property
     def count(self) -> int:
@@ -113,7 +115,7 @@ def load() -> Table:
 
 
 def _signal(table: Table, product: str, group: str, row: dict) -> Signal:
-    known = {"name", "size", "type", "unit", "default", "range", "tunable", "enum", "text"}
+    known = {"name", "size", "type", "unit", "default", "range", "tunable", "enum", "text", "telemetry"}
     where = f"{product}.{group} {row.get('name')}"
     if set(row) - known:
         raise ValueError(f"{where}: unknown keys {sorted(set(row) - known)}")
@@ -127,5 +129,8 @@ def _signal(table: Table, product: str, group: str, row: dict) -> Signal:
         raise ValueError(f"{where}: default outside its range")
     if row.get("enum", "") and row["enum"] not in table.enums:
         raise ValueError(f"{where}: unknown enum {row['enum']}")
+    if (group == "output") != (row.get("telemetry") in MESSAGES):
+        raise ValueError(f"{where}: an output, and nothing else, needs telemetry = one of {', '.join(MESSAGES)}")
     return Signal(product, group, row["name"], row.get("type", "real"), shape, names, row.get("unit", "1"), default,
-                  float(low), float(high), row.get("tunable", False), row.get("enum", ""), row["text"])
+                  float(low), float(high), row.get("tunable", False), row.get("enum", ""), row["text"],
+                  row.get("telemetry", ""))
