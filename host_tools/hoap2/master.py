@@ -14,15 +14,18 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 
 from hoap2 import metrics, parameters
 from hoap2.errors import UserError
+from hoap2.pace import BATCH_TICKS, Pace
 from hoap2.signal_log import SignalLog
+from hoap2.telemetry.run_telemetry import RunTelemetry
 from hoap2.wiring import Recorder, Side, check_connections, connect, log_columns, writer
 
-__all__ = ["Outcome", "Recorder", "Side", "StopRequest", "Timing", "connect", "log_columns", "run"]
+__all__ = ["Commands", "Company", "Outcome", "Recorder", "Side", "StopRequest", "Timing", "connect", "log_columns", "run"]
 
 HOUSEKEEPING_TICKS = 10
 FALL_WATCH_TICKS = 100  # at most this long between two looks for a fall
@@ -96,38 +99,79 @@ class Outcome:
     warnings: list[str] = field(default_factory=list)
 
 
+class Commands(Protocol):
+    """Whoever asks something of a run while it goes on."""
+
+    def poll(self, tick: int) -> None:
+        """Called between two batches of ticks, `tick` done: what is set on the products now, tick + 1 uses."""
+
+
+@dataclass
+class Company:
+    """Who goes along with a run; nobody of them may change what it computes but `commands`."""
+
+    progress: Callable[[SignalLog], None] | None = None
+    telemetry: RunTelemetry | None = None
+    pace: Pace | None = None  # keeps the run to the wall clock
+    commands: Commands | None = None
+
+
 def run(controller: Side, plant: Side, ticks: int, stop_after_fall_s: float, stop: StopRequest,
-        progress: Callable[[SignalLog], None] | None = None) -> Outcome:  # fmt: skip
+        company: Company | None = None) -> Outcome:  # fmt: skip
     """Step both initialised sides `ticks` times, or until a fall, an error or a stop request."""
     check_connections(controller, plant)
+    company = company or Company()
     log = SignalLog(log_columns(controller, plant), ticks + 1)
     outcome = Outcome(log, Timing(ticks))
+    fall = _FallWatch(log, stop_after_fall_s, company.telemetry)
+    if company.telemetry is not None:
+        company.telemetry.open(log, outcome.timing.ns["controller"], outcome.timing.ns["plant"])
     started = time.perf_counter()
     try:
-        _run(_Loop(controller, plant, outcome), ticks, _FallWatch(log, stop_after_fall_s), stop, progress)
+        _run(_Loop(controller, plant, outcome), ticks, fall, stop, company)
     except Exception as error:  # whatever a product throws: the run so far is kept and marked
         outcome.error = f"{type(error).__name__} at t = {outcome.timing.ticks * 1e-3:.3f} s: {error}"
     outcome.timing.loop_s = time.perf_counter() - started
     outcome.interrupted = stop.signal is not None
+    if company.telemetry is not None:
+        _end(company.telemetry, outcome, fall)
     return outcome
 
 
-def _run(loop: _Loop, ticks: int, fall: _FallWatch, stop: StopRequest,
-         progress: Callable[[SignalLog], None] | None) -> None:  # fmt: skip
+def _end(telemetry: RunTelemetry, outcome: Outcome, fall: _FallWatch) -> None:
+    telemetry.rows()  # what an error left
+    fall.look()
+    fell = None if fall.tick is None else "fell"
+    telemetry.close(outcome.error or ("stopped" if outcome.interrupted else None) or fell or "done")
+
+
+def _run(loop: _Loop, ticks: int, fall: _FallWatch, stop: StopRequest, company: Company) -> None:
     """A few ticks at a time, with what need not be done every tick between them."""
     now = time.perf_counter_ns
+    progress, telemetry, pace, commands = company.progress, company.telemetry, company.pace, company.commands
     next_progress = now()
+    batch = HOUSEKEEPING_TICKS if pace is None else BATCH_TICKS
     done, last = 0, ticks
     loop.recorder.row()
+    if pace is not None:
+        pace.start()
+    if telemetry is not None:
+        telemetry.rows()
     while done < last and stop.signal is None:
+        if commands is not None:
+            commands.poll(done)
         last = min(last, fall.last_tick(done))
         if progress is not None and now() >= next_progress:
             progress(loop.log)
             next_progress = now() + PROGRESS_PERIOD_NS
         # an end that has passed already, by a fall seen late, is followed by one tick more
-        end = max(done + 1, min(last, done + HOUSEKEEPING_TICKS))
+        end = max(done + 1, min(last, done + batch))
         loop.advance(done, end)
         done = end
+        if pace is not None:
+            pace.wait(done)
+        if telemetry is not None:
+            telemetry.rows()
     if progress is not None:
         progress(loop.log)
 
@@ -173,8 +217,9 @@ class _Loop:
 class _FallWatch:
     """Where the run may end: a while after the tick of a fall. Looks at each row once."""
 
-    def __init__(self, log: SignalLog, stop_after_fall_s: float) -> None:
-        self.log, self.seen, self.end = log, 0, math.inf
+    def __init__(self, log: SignalLog, stop_after_fall_s: float, telemetry: RunTelemetry | None) -> None:
+        self.log, self.seen, self.telemetry = log, 0, telemetry
+        self.tick: int | None = None  # of the fall
         self.extra = round(stop_after_fall_s * 1e6 / parameters.table().tick_us)
         # A fall is to be seen before the run's end that follows from it, so that this end is exact.
         self.period = max(1, min(self.extra, FALL_WATCH_TICKS) // HOUSEKEEPING_TICKS) * HOUSEKEEPING_TICKS
@@ -185,13 +230,19 @@ class _FallWatch:
 
     def last_tick(self, tick: int) -> float:
         """The last tick of the run as far as is known at this one."""
-        if tick % self.period:
-            return self.end
+        if tick % self.period == 0:
+            self.look()
+        return math.inf if self.tick is None else self.tick + self.extra
+
+    def look(self) -> None:
+        """At the rows since the last look."""
         rows = slice(self.seen, self.log.count)
         tilt = metrics.chest_tilt_rad(self.log.column("p.true_chest_rpy_rad.x")[rows],
                                       self.log.column("p.true_chest_rpy_rad.y")[rows])  # fmt: skip
         fallen = (tilt > metrics.FALL_TILT_RAD) | (self.log.column("p.other_contacts")[rows] > 0)
-        if fallen.any() and self.end == math.inf:
-            self.end = self.seen + int(np.argmax(fallen)) + self.extra
+        if fallen.any() and self.tick is None:
+            self.tick = self.seen + int(np.argmax(fallen))
+            if self.telemetry is not None:
+                how = "chest tilt" if tilt[self.tick - self.seen] > metrics.FALL_TILT_RAD else "contact beside the soles"
+                self.telemetry.event("fall", f"fell at {self.tick * 1e-3:.3f} s ({how})", self.tick)
         self.seen = self.log.count
-        return self.end

@@ -40,6 +40,12 @@ def plant_library() -> Path:
     return _built_since(built("sim/libhoap2_plant.so"), "sim/include/hoap2_plant/generated/plant_signals.h")
 
 
+def telemetry_library() -> Path:
+    """The LCM publisher."""
+    library = built("host_tools/telemetry/libhoap2_telemetry.so")
+    return _built_since(library, "host_tools/telemetry/generated/places.hpp")
+
+
 def fmu(product: str, fmi: int) -> Path:
     """An FMU of this build: product `controller` or `plant`, fmi 2 or 3."""
     return built(f"fmu/hoap2_{product}_fmi{fmi}.fmu")

@@ -7,17 +7,20 @@ import gc
 import hashlib
 import subprocess
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
 
 from hoap2 import __version__, bounds, master, metrics, parameters, runfolder, toml_out
 from hoap2.generate.tables import PRODUCTS, ROOT
+from hoap2.pace import Pace
 from hoap2.products import Products
 from hoap2.progress import PartProgress, RunProgress
 from hoap2.runfolder import RunFolder
 from hoap2.scenario import Scenario
 from hoap2.signal_log import SignalLog
+from hoap2.telemetry import options, run_telemetry
 
 EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 
@@ -47,8 +50,8 @@ def peak_memory_mb() -> float | None:
     return next((int(line.split()[1]) / 1024 for line in lines if line.startswith("VmHWM")), None)
 
 
-def resolved_toml(scenario: Scenario, files: dict[str, Path]) -> str:
-    """Everything that decides the run; `./hoap2 run <this file>` repeats it."""
+def resolved_toml(scenario: Scenario, files: dict[str, Path], run_id: int | None = None) -> str:
+    """Everything that decides the run; `./hoap2 run <this file>` repeats it. run_id: which of the equal runs it was."""
     document: dict[str, dict] = {
         "scenario": {
             "name": scenario.name, "title": scenario.title, "section": scenario.section, "text": scenario.text,
@@ -61,6 +64,8 @@ def resolved_toml(scenario: Scenario, files: dict[str, Path]) -> str:
         document[product] = {n: parameters.plain(known[n], v) for n, v in scenario.values[product].items()}
     document["bounds"] = {n: {"min": b.low, "max": b.high} for n, b in scenario.bounds.items()}
     record: dict = {"seed": scenario.seed, "version": __version__, "git": git_describe()}
+    if run_id is not None:
+        record["run_id"] = run_id
     for product, path in files.items():
         record[f"{product}_file"] = path.name
         record[f"{product}_sha256"] = hashlib.sha256(path.read_bytes()).hexdigest()
@@ -100,42 +105,90 @@ def exit_code(summary: dict) -> int:
     return EXIT_OK if summary["ok"] else EXIT_FAILED
 
 
+@dataclass(frozen=True)
+class Wishes:
+    """How a run is to be made and shown; nothing of it changes what the run computes."""
+
+    video: bool = True
+    quiet: bool = False
+    telemetry: options.Options = options.Options()
+
+
 def execute(scenario: Scenario, products: Products, folder: RunFolder, stop: master.StopRequest, console: Console,
-            video: bool = True, quiet: bool = False) -> dict:  # fmt: skip
+            wishes: Wishes = Wishes()) -> dict:  # fmt: skip
     """Run, judge, write every file, give the folder its name; returns the summary.
 
     A stop request ends the simulation, or leaves out what is still to come after it.
     """
-    clock = products.clock
+    clock, quiet = products.clock, wishes.quiet
+    run_id = run_telemetry.new_run_id()
+    run_toml = resolved_toml(scenario, products.files, run_id)
+    company = _company(scenario, wishes, folder, run_id, run_toml)
     clock.set_up_done()
     with clock.part("loop"):
-        outcome = _simulate(scenario, products, stop, console, quiet)
+        outcome = _simulate(scenario, products, stop, console, quiet, company)
     with clock.part("files"):
-        folder.text("run.toml", resolved_toml(scenario, products.files))
+        folder.text("run.toml", run_toml)
         outcome.log.write(folder.work / "signals.parquet")
     with clock.part("report"):
-        summary = summarise(scenario, outcome) | {"notes": []}
+        summary = summarise(scenario, outcome) | {"notes": _notes(company)}
     with clock.part("pictures"):
-        pictures = _pictures(folder, scenario, outcome.log, video, console, quiet, stop, summary["notes"])
+        pictures = _pictures(folder, scenario, outcome.log, wishes.video, console, quiet, stop, summary["notes"])
     summary |= {"peak_memory_mb": peak_memory_mb(), "wall_s": clock.summary()}
     if outcome.log.count:
         with clock.part("report"):
             _report(folder, scenario, outcome.log, summary, pictures)
     summary["wall_s"] = clock.summary()
     finished = time.strftime("%Y-%m-%dT%H:%M:%S%z")
-    folder.json("timing.json", outcome.timing.summary() | {"wall_s": summary["wall_s"], "finished": finished})
+    timing = outcome.timing.summary() | _timing_of(company, outcome)
+    folder.json("timing.json", timing | {"wall_s": summary["wall_s"], "finished": finished})
     folder.json("summary.json", summary)
     return runfolder.jsonable(summary) | {"folder": str(folder.finish())}
 
 
+def _company(scenario: Scenario, wishes: Wishes, folder: RunFolder, run_id: int, run_toml: str) -> master.Company:
+    """Telemetry and pace, as far as they are wanted."""
+    wanted = wishes.telemetry
+    about = run_telemetry.About(run_id, scenario.name, scenario.title, scenario.seed, scenario.sensors,
+                                scenario.duration_s, run_toml, str(folder.path), wanted.accept_commands)  # fmt: skip
+    log_path = folder.work / run_telemetry.LOG_NAME if wanted.log else None
+    company = master.Company(pace=Pace() if wanted.realtime else None)
+    if log_path is not None or wanted.live_url is not None:
+        company.telemetry = run_telemetry.RunTelemetry(about, log_path, wanted.live_url, company.pace)
+    return company
+
+
+def _notes(company: master.Company) -> list[str]:
+    """What the user should know of a run that went on all the same."""
+    notes = [] if company.telemetry is None else list(company.telemetry.notes)
+    if company.pace is not None and company.pace.moved_s > 0.0:
+        notes.append(f"not in real time: {company.pace.moved_s:.1f} s behind the wall clock at the end")
+    return notes
+
+
+def _timing_of(company: master.Company, outcome: master.Outcome) -> dict:
+    """What pacing and telemetry have to say in timing.json."""
+    said: dict = {}
+    if company.pace is not None:
+        said["pace"] = company.pace.summary()
+    if company.telemetry is not None:
+        counts = dict(company.telemetry.counts)
+        ticks = max(1, outcome.timing.ticks)
+        us = {name: counts.pop(f"{part}_ns", 0) / 1e3 / ticks for name, part in
+              (("us_a_tick", "spent"), ("sender_us_a_tick", "sender"))}  # fmt: skip
+        said["telemetry"] = counts | us
+    return said
+
+
 def _simulate(scenario: Scenario, products: Products, stop: master.StopRequest, console: Console,
-              quiet: bool) -> master.Outcome:  # fmt: skip
+              quiet: bool, company: master.Company) -> master.Outcome:  # fmt: skip
     """The loop, with what it shows meanwhile."""
     title = scenario.name + (f" seed {scenario.seed}" if scenario.seed else "")
     progress = None if quiet else RunProgress(title, scenario.duration_s, scenario.steps_planned, console)
+    company.progress = progress
     try:
         return master.run(products.controller, products.plant, ticks_of(scenario),
-                          scenario.options["stop_after_fall_s"], stop, progress)  # fmt: skip
+                          scenario.options["stop_after_fall_s"], stop, company)  # fmt: skip
     finally:
         if progress is not None:
             progress.close()

@@ -15,6 +15,7 @@ from hoap2 import bounds, metric_names, parallel, products, runfolder, runner, s
 from hoap2.master import StopRequest
 from hoap2.progress import PartProgress
 from hoap2.tables_shown import MISSED, OK, in_unit
+from hoap2.telemetry import options
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,7 @@ class Request:
     duration_s: float | None = None
     choice: products.Choice = products.Choice()
     video: bool = True
+    telemetry: options.Options = options.Options()
 
     def load(self) -> scenario.Scenario:
         return scenario.load(self.scenario, list(self.overrides), self.sensors, self.duration_s)
@@ -43,12 +45,14 @@ class Result:
 def run_one(request: Request, loaded: scenario.Scenario, out: str | None, console: Console,
             path: Path | None = None, quiet: bool = False) -> dict:  # fmt: skip
     """One run into its folder (`path`, or from `out`); returns the summary. No folder is left by bad input."""
+    wishes = runner.Wishes(request.video, quiet, request.telemetry)
+    request.telemetry.check()
     with StopRequest() as stop:  # from here on a stop still leaves a whole, marked folder
         folder = runfolder.RunFolder(path or runfolder.target(loaded.name, out))
         try:
             both = products.open_both(request.choice, loaded)
             try:
-                return runner.execute(loaded, both, folder, stop, console, request.video, quiet)
+                return runner.execute(loaded, both, folder, stop, console, wishes)
             finally:
                 both.close()
         finally:

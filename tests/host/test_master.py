@@ -15,7 +15,8 @@ from sides import FakeSide, falling_plant, standing_plant, stepping_controller
 
 
 def run(controller, plant, ticks, stop=None, after_fall_s=1.0, progress=None):
-    return master.run(controller, plant, ticks, after_fall_s, stop or master.StopRequest(), progress)
+    return master.run(controller, plant, ticks, after_fall_s, stop or master.StopRequest(),
+                      master.Company(progress))  # fmt: skip
 
 
 def echo(name_in: str, name_out: str):

@@ -26,10 +26,18 @@ def command(
     plant: Annotated[Path | None, typer.Option(metavar="Y.fmu", help="Another plant FMU.")] = None,
     fmi: Annotated[int, typer.Option(min=2, max=3, help="FMI version of the built FMUs.")] = 3,
     video: Annotated[bool, typer.Option("--video/--no-video", help="Render video.mp4 after the run.")] = True,
+    realtime: Annotated[bool, typer.Option("--realtime", help="Keep to the wall clock, and publish live.")] = False,
+    lcm: Annotated[
+        str | None,
+        typer.Option(metavar="URL", help="Publish live there: udpm://, memq://, file://; `off` with --realtime."),
+    ] = None,
+    telemetry: Annotated[
+        bool, typer.Option("--telemetry/--no-telemetry", help="Write telemetry.lcm (2 MB a simulated second).")
+    ] = True,
     jobs: Annotated[int, typer.Option(min=1, max=256, help="Runs at a time of a study.")] = 2,
     json: Annotated[bool, typer.Option("--json", help="Print summary.json (study.json) on standard output.")] = False,
 ) -> int:
-    """Run a scenario; leaves summary.json, signals.parquet, run.toml, report.html and video.mp4 in a run folder.
+    """Run a scenario; leaves summary.json, signals.parquet, telemetry.lcm, run.toml, report.html and video.mp4 in a run folder.
 
     Exit code: 0 all bounds met, 1 a bound missed or the run failed, 2 bad input, 130 stopped by Ctrl-C (the run
     folder is complete and marked as interrupted).
@@ -41,12 +49,17 @@ def command(
     from hoap2 import runner, study, tables_shown
     from hoap2.errors import UserError
     from hoap2.products import Choice
+    from hoap2.telemetry import options
 
-    request = study.Request(scenario, tuple(overrides or ()), sensors, duration, Choice(controller, plant, fmi), video)
+    wanted = options.Options(realtime, lcm, telemetry)
+    request = study.Request(scenario, tuple(overrides or ()), sensors, duration, Choice(controller, plant, fmi), video,
+                            wanted)  # fmt: skip
     console = Console(stderr=True, highlight=False)
     if seeds is not None:
         if seed:
             raise UserError("give either --seed or --seeds, not both")
+        if realtime or lcm is not None:
+            raise UserError("a study is not live", "give --realtime and --lcm to single runs")
         result = study.run_study(request, seeds_module.parse_range(seeds), out, jobs, console, show=not json)
         if json:
             print(json_module.dumps(result.document, indent=2, ensure_ascii=False))

@@ -174,7 +174,12 @@ def places_header(table: Table) -> str:
     out = [f"// {BANNER}", "#ifndef HOAP2_TELEMETRY_PLACES_H", "#define HOAP2_TELEMETRY_PLACES_H", "#include <cstddef>"]
     out += [f'#include "{PACKAGE}/{name}_t.hpp"' for name in MESSAGES]
     out += ["", "namespace hoap2::telemetry {", "", "struct place_t {", "  std::size_t offset;",
-            "  int count;", "  bool real; // double; else int32_t", "};", ""]  # fmt: skip
+            "  int count;", "  bool real; // double; else int32_t", "};", "",
+            "struct fault_name_t {", "  int bit;", "  const char *name;", "};", ""]  # fmt: skip
+    faults = ", ".join(f'{{{bit}, "{name}"}}' for name, bit in table.faults.items())
+    modes = ", ".join(f'"{name}"' for name in table.enums["mode"])
+    out += [f"inline constexpr fault_name_t FAULT_NAMES[] = {{{faults}}};",
+            f"inline constexpr const char *MODE_NAMES[] = {{{modes}}};"]  # fmt: skip
     for name in MESSAGES:
         of_type = f"{PACKAGE}::{name}_t"
         out.append(f"inline constexpr place_t {name.upper()}_PLACES[] = {{")

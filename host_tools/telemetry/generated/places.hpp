@@ -14,6 +14,13 @@ struct place_t {
   bool real; // double; else int32_t
 };
 
+struct fault_name_t {
+  int bit;
+  const char *name;
+};
+
+inline constexpr fault_name_t FAULT_NAMES[] = {{1, "bad_input"}, {2, "stale_input"}, {4, "footprint_out_of_reach"}, {8, "joint_limit"}, {16, "bad_parameter"}, {32, "reach_limit"}, {128, "capture_point_lost"}, {64, "joint_too_fast"}};
+inline constexpr const char *MODE_NAMES[] = {"start_up", "calibrate", "stand", "walk", "hold", "crouch", "safe"};
 inline constexpr place_t STATE_PLACES[] = {
     {offsetof(hoap2_lcm::state_t, q_ref_rad), 25, true},
     {offsetof(hoap2_lcm::state_t, qd_ref_rad_s), 25, true},
