@@ -8,22 +8,6 @@ from typing import Annotated
 import typer
 
 
-def _folder(run: str) -> Path:
-    """The run folder: a path, or the latest run of a scenario below out/."""
-    from hoap2 import scenario
-    from hoap2.errors import UserError, nearest
-
-    path = Path(run)
-    if path.is_dir():
-        return path
-    runs = [folder for folder in (Path("out") / run).glob("[!.]*/") if (folder / "signals.parquet").exists()]
-    if runs and "/" not in run:
-        return max(runs, key=lambda folder: (folder / "signals.parquet").stat().st_mtime)
-    if run in scenario.names():
-        raise UserError(f"no run of {run} in {Path('out').resolve()}", f"make one: ./hoap2 run {run}")
-    raise UserError(f"there is no run folder {run}", nearest(run, scenario.names()))
-
-
 def command(
     run: Annotated[str, typer.Argument(metavar="RUN", help="A run folder, or a scenario (its latest run in out/).")],
     t: Annotated[list[float], typer.Option("--t", "--time", metavar="SECONDS", help="Moment; several make a strip.")],
@@ -34,9 +18,9 @@ def command(
     force: Annotated[bool, typer.Option("--force", help="Overwrite the file.")] = False,
 ) -> int:
     """Draw a moment of a run as PNG (JPEG, WebP), and print the file's name."""
-    from hoap2 import pictures
+    from hoap2 import pictures, run_source
 
-    folder = _folder(run)
+    folder = run_source.folder_of(run)
     path = out or folder / f"frame_{'_'.join(f'{moment:.3f}' for moment in t)}s_{view}.png"
     if len(t) == 1:
         pixels = pictures.parse_size(size or "1280x720")
