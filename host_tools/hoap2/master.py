@@ -25,7 +25,9 @@ from hoap2.signal_log import SignalLog
 from hoap2.telemetry.run_telemetry import RunTelemetry
 from hoap2.wiring import Recorder, Side, check_connections, connect, log_columns, writer
 
-__all__ = ["Commands", "Company", "Outcome", "Recorder", "Side", "StopRequest", "Timing", "connect", "log_columns", "run"]
+__all__ = [
+    "Commands", "Company", "Outcome", "Recorder", "Side", "StopRequest", "Timing", "connect", "log_columns", "run",
+]  # fmt: skip
 
 HOUSEKEEPING_TICKS = 10
 FALL_WATCH_TICKS = 100  # at most this long between two looks for a fall
@@ -243,6 +245,7 @@ class _FallWatch:
         if fallen.any() and self.tick is None:
             self.tick = self.seen + int(np.argmax(fallen))
             if self.telemetry is not None:
-                how = "chest tilt" if tilt[self.tick - self.seen] > metrics.FALL_TILT_RAD else "contact beside the soles"
+                tilted = tilt[self.tick - self.seen] > metrics.FALL_TILT_RAD
+                how = "chest tilt" if tilted else "contact beside the soles"
                 self.telemetry.event("fall", f"fell at {self.tick * 1e-3:.3f} s ({how})", self.tick)
         self.seen = self.log.count

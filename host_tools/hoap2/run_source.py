@@ -37,7 +37,7 @@ def log_of(run: str) -> Path:
     folder = folder_of(run)
     if not (folder / LOG_NAME).is_file():
         raise UserError(f"{folder} holds no {LOG_NAME}",
-                        f"the run was made without it; once more with it: ./hoap2 run {folder / 'run.toml'}")  # fmt: skip
+                        f"it was made without; once more with it: ./hoap2 run {folder / 'run.toml'}")  # fmt: skip
     return folder / LOG_NAME
 
 

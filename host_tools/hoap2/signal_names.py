@@ -23,8 +23,8 @@ def find(log: SignalLog, name: str) -> list[str]:
         found = [c for c in columns if name in (c, c[2:])] or [c for c in columns if name in _wholes(c)]
     if not found:
         known = {word for c in columns for word in (c, c[2:], *_wholes(c))}
-        raise UserError(f"this run has no signal '{name}'",
-                        nearest(name, sorted(known)) or "docs/generated/signals.md lists them; patterns such as '*knee*' work")  # fmt: skip
+        hint = nearest(name, sorted(known)) or "docs/generated/signals.md lists them; patterns such as '*knee*' work"
+        raise UserError(f"this run has no signal '{name}'", hint)
     return found
 
 

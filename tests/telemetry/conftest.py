@@ -11,13 +11,13 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "host"))  # sides.py
 
-LOOPBACK = "ip link set lo up; {route} exec \"$@\""
+LOOPBACK = 'ip link set lo up; {route} exec "$@"'
 ROUTE = "ip route add 224.0.0.0/4 dev lo;"
 
 
 @pytest.fixture
 def private_network():
-    """Run a program in a network namespace with nothing but loopback: private_network([...], route=True, timeout=60)."""
+    """The command that runs another one in a network with nothing but loopback: private_network([...], route=True)."""
     unshare = ["unshare", "--net"] if subprocess.run(["id", "-u"], capture_output=True).stdout.strip() == b"0" else \
         ["unshare", "--map-root-user", "--net"]  # fmt: skip
     if not shutil.which("unshare") or not shutil.which("ip") or subprocess.run([*unshare, "true"]).returncode != 0:

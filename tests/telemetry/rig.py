@@ -31,7 +31,9 @@ def run(controller, plant, ticks: int, log_path: Path | None, url: str | None = 
 
 def read(path: Path) -> list[tuple[int, str, object]]:
     """(time_us, channel, message) of a whole log."""
-    return [(event.timestamp, event.channel, types.decode(event.channel, event.data)) for event in lcm.EventLog(str(path))]
+    return [
+        (event.timestamp, event.channel, types.decode(event.channel, event.data)) for event in lcm.EventLog(str(path))
+    ]
 
 
 def of(channel: str, log: list[tuple[int, str, object]]) -> list:

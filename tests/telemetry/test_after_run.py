@@ -48,10 +48,23 @@ def exported(folder: Path, form: str, path: Path, signals: list[str], every: int
 
 def test_names_are_found_as_people_write_them(folder: Path):
     log = run_source.load(str(folder)).log
-    assert signal_names.find(log, "p.r_knee.true_tau_Nm") == signal_names.find(log, "r_knee.true_tau_Nm") == ["p.r_knee.true_tau_Nm"]
-    assert signal_names.find(log, "cp_est_W_m") == signal_names.find(log, "c.cp_est_W_m") == ["c.cp_est_W_m.x", "c.cp_est_W_m.y"]
+    assert (
+        signal_names.find(log, "p.r_knee.true_tau_Nm")
+        == signal_names.find(log, "r_knee.true_tau_Nm")
+        == ["p.r_knee.true_tau_Nm"]
+    )
+    assert (
+        signal_names.find(log, "cp_est_W_m")
+        == signal_names.find(log, "c.cp_est_W_m")
+        == ["c.cp_est_W_m.x", "c.cp_est_W_m.y"]
+    )
     assert len(signal_names.find(log, "foot_ref_W_m")) == 6 and len(signal_names.find(log, "q_ref_rad")) == 25
-    assert signal_names.find(log, "*knee.q_*") == ["c.r_knee.q_ref_rad", "c.l_knee.q_ref_rad", "p.r_knee.q_enc_rad", "p.l_knee.q_enc_rad"]
+    assert signal_names.find(log, "*knee.q_*") == [
+        "c.r_knee.q_ref_rad",
+        "c.l_knee.q_ref_rad",
+        "p.r_knee.q_enc_rad",
+        "p.l_knee.q_enc_rad",
+    ]
     with pytest.raises(UserError, match="no signal 'cp_est_Wm'.*did you mean 'cp_est_W_m'"):
         signal_names.find(log, "cp_est_Wm")
 
@@ -64,7 +77,9 @@ def test_tables_hold_the_signals(folder: Path, tmp_path: Path):
     assert rows[0] == ["t_s", *(c.name for c in (*log.reals, *log.ints))] and len(rows) == 1 + log.count
     for k in (0, 137, log.count - 1):
         assert [float(cell) for cell in rows[1 + k][1:]] == [*log.real[k], *log.integer[k]]
-    table = pyarrow.parquet.read_table(exported(folder, "parquet", tmp_path / "a.parquet", ["step_index", "true_q_rad"], 7))
+    table = pyarrow.parquet.read_table(
+        exported(folder, "parquet", tmp_path / "a.parquet", ["step_index", "true_q_rad"], 7)
+    )
     assert table.num_columns == 27 and table.num_rows == len(range(0, log.count, 7))
     assert table["c.step_index"].to_pylist() == log.column("c.step_index")[::7].tolist()
     assert table.schema.field("p.r_knee.true_q_rad").metadata == {b"unit": b"rad"}
@@ -93,7 +108,9 @@ def test_mcap_holds_signals_events_and_the_robot(folder: Path, tmp_path: Path):
     assert [t for t, _ in topics["/truth"]] == [10_000_000 * k for k in range(TICKS // 10 + 1)]
     assert [m["step_index"] for _, m in topics["/gait"]] == log.column("c.step_index").tolist()
     assert topics["/truth"][3][1]["true_q_rad"]["r_knee"] == log.column("p.r_knee.true_q_rad")[30]
-    assert [m["text"] for _, m in topics["/event"] if m["kind"] == "step"] == [f"step {i}, stance right" for i in (1, 2, 3)]
+    assert [m["text"] for _, m in topics["/event"] if m["kind"] == "step"] == [
+        f"step {i}, stance right" for i in (1, 2, 3)
+    ]
     links = {entity["id"] for entity in topics["/scene"][0][1]["entities"]}
     assert links == {t["child_frame_id"] for t in topics["/tf"][0][1]["transforms"]} and len(links) == 26
     assert len(topics["/tf"]) == TICKS // 20 + 1

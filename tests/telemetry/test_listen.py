@@ -44,7 +44,9 @@ def counts(listener: Listener, channel: str) -> tuple[int, ...]:
 
 def test_messages_arrive_in_order_and_whole():
     seen = []
-    with Listener("memq://", [types.GAIT], lambda channel, message: seen.append((channel, message.sequence))) as listener:
+    with Listener(
+        "memq://", [types.GAIT], lambda channel, message: seen.append((channel, message.sequence))
+    ) as listener:
         send(listener, types.GAIT, gait(0), gait(1), gait(2))
         send(listener, types.RUN, run_message())  # not asked for
     assert seen == [(types.GAIT, 0), (types.GAIT, 1), (types.GAIT, 2)]
@@ -106,7 +108,7 @@ def test_strangers_are_counted_and_change_nothing(listener: Listener):
 
 
 @pytest.mark.parametrize("url, said", [("udp://1.2.3.4", "not an LCM URL"), ("udpm://10.0.0.1:7667", "not a multicast"),
-                                       ("udpm://239.255.76.67:x", "not an LCM URL"), ("7667", "not an LCM URL")])  # fmt: skip
+                                       ("udpm://239.255.76.67:x", "not an LCM URL"), ("7667", "not an LCM")])  # fmt: skip
 def test_a_wrong_url_is_named(url: str, said: str):
     with pytest.raises(UserError, match=said) as raised:
         transport.check_url(url)

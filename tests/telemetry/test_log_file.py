@@ -51,7 +51,9 @@ def test_cut_anywhere_it_is_read_up_to_there_and_says_so(good, tmp_path: Path):
             assert log.problems() == []
         else:
             (said,) = log.problems()
-            assert f"cut off in mid-message: read up to {log.last_us / 1e6:.3f} s ({whole} messages), {left} bytes" in said
+            assert (
+                f"cut off in mid-message: read up to {log.last_us / 1e6:.3f} s ({whole} messages), {left} bytes" in said
+            )
 
 
 def test_a_cut_log_still_gives_its_signals(good, tmp_path: Path):

@@ -66,8 +66,9 @@ def test_events_tell_the_run(tmp_path: Path):
     events = [(m.tick, m.kind, m.text) for m in rig.of(types.EVENT, log)]
     assert events[0] == (0, "run_started", "scripted: A scripted run")
     assert events[-1] == (500, "run_ended", "done")
-    assert [e for e in events if e[1] == "step"] == [(101, "step", "step 1, stance right"), (201, "step", "step 2, stance right"),
-                                                     (301, "step", "step 3, stance right")]  # fmt: skip
+    steps = [(101, "step", "step 1, stance right"), (201, "step", "step 2, stance right"),
+             (301, "step", "step 3, stance right")]  # fmt: skip
+    assert [e for e in events if e[1] == "step"] == steps
     assert [e for e in events if e[1] == "push"] == [(203, "push", "push begins"), (207, "push", "push ends")]
     assert {m.kind for m in rig.of(types.EVENT, log)} <= set(types.EVENT_KINDS)
     assert [time_us for time_us, _, _ in log] == sorted(time_us for time_us, _, _ in log)
@@ -128,7 +129,9 @@ def test_live_without_pace_is_thinned_out_and_the_log_is_not(tmp_path: Path):
     master.run(noisy("controller", 1), noisy("plant", 2), 4000, 0.1, master.StopRequest(),
                master.Company(telemetry=ear.telemetry, commands=ear))  # fmt: skip
     states = [m for channel, m in heard if channel == types.STATE]
-    assert 1 <= len(states) < 2000 and [m.sequence for m in states] == list(range(states[0].sequence, states[-1].sequence + 1))
+    assert 1 <= len(states) < 2000 and [m.sequence for m in states] == list(
+        range(states[0].sequence, states[-1].sequence + 1)
+    )
     in_log = {m.tick: m for m in rig.of(types.STATE, rig.read(log_path))}
     assert len(in_log) == 4001
     for m in states:
@@ -178,13 +181,17 @@ def test_telemetry_leaves_no_trace_and_equal_runs_log_equal_messages(tmp_path: P
     without = real_run(tmp_path, "none", telemetry=False)
     a, b = (real_run(tmp_path, name, telemetry=True) for name in "ab")
     assert a[:2] == b[:2] == without[:2] and not without[2].exists()
-    told = [[(t, channel, m.encode()) for t, channel, m in rig.read(path) if channel != types.HEALTH] for *_, path in (a, b)]
+    told = [
+        [(t, channel, m.encode()) for t, channel, m in rig.read(path) if channel != types.HEALTH] for *_, path in (a, b)
+    ]
     assert told[0] == told[1] and len(told[0]) > 2 * 2201
 
 
 def test_a_run_folder_holds_its_log(hoap2_cli, tmp_path: Path):
     def run(name: str, *options: str):
-        done = hoap2_cli("run", "floor-stand", "--duration", "2", "--no-video", "--json", "--out", name, *options, cwd=tmp_path)
+        done = hoap2_cli(
+            "run", "floor-stand", "--duration", "2", "--no-video", "--json", "--out", name, *options, cwd=tmp_path
+        )
         assert done.returncode in (0, 1), done.stderr
         folder = Path(json.loads(done.stdout)["folder"])
         return folder, json.loads((folder / "timing.json").read_text())

@@ -9,7 +9,9 @@ import typer
 
 
 def command(
-    first: Annotated[str, typer.Argument(metavar="RUN", help="A run folder, a scenario (its latest run), or a log file.")],
+    first: Annotated[
+        str, typer.Argument(metavar="RUN", help="A run folder, a scenario (its latest run), or a log file.")
+    ],
     second: Annotated[str, typer.Argument(metavar="RUN", help="Another one.")],
     tolerance: Annotated[float, typer.Option(metavar="X", min=0.0, help="Differences up to this do not count.")] = 0.0,
     json: Annotated[bool, typer.Option("--json", help="Everything, on standard output.")] = False,

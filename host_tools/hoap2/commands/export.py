@@ -11,10 +11,14 @@ NAMES = {"mcap": "run.mcap", "csv": "signals.csv", "parquet": "export.parquet", 
 
 
 def command(
-    run: Annotated[str, typer.Argument(metavar="RUN", help="A run folder, a scenario (its latest run), or a log file.")],
+    run: Annotated[
+        str, typer.Argument(metavar="RUN", help="A run folder, a scenario (its latest run), or a log file.")
+    ],
     mcap: Annotated[bool, typer.Option("--mcap", help="For Foxglove: signals, events, the robot in 3D.")] = False,
     csv: Annotated[bool, typer.Option("--csv", help="For a spreadsheet: a column a signal.")] = False,
-    parquet: Annotated[bool, typer.Option("--parquet", help="For pandas: chosen signals, or those of a log file.")] = False,
+    parquet: Annotated[
+        bool, typer.Option("--parquet", help="For pandas: chosen signals, or those of a log file.")
+    ] = False,
     rrd: Annotated[bool, typer.Option("--rrd", help="For rerun (installs rerun-sdk, 170 MB).")] = False,
     signals: Annotated[
         list[str] | None, typer.Option("--signal", metavar="NAME", help="Only this signal or pattern; may be repeated.")

@@ -10,12 +10,16 @@ import typer
 
 
 def command(
-    run: Annotated[str, typer.Argument(metavar="RUN", help="A run folder, a scenario (its latest run), or a log file.")],
+    run: Annotated[
+        str, typer.Argument(metavar="RUN", help="A run folder, a scenario (its latest run), or a log file.")
+    ],
     signals: Annotated[
         list[str],
         typer.Argument(metavar="SIGNAL...", help="Names, wholes or patterns; with commas between them in one panel."),
     ],
-    out: Annotated[Path | None, typer.Option(metavar="FILE.png", help="Where (.png, .svg, .pdf); else beside the run's files.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE.png", help="Where (.png, .svg, .pdf); else beside the run's files.")
+    ] = None,
     first: Annotated[float, typer.Option("--from", metavar="SECONDS", help="Begin of the time axis.")] = 0.0,
     last: Annotated[float, typer.Option("--to", metavar="SECONDS", help="End of it.")] = math.inf,
     rad: Annotated[bool, typer.Option("--rad", help="Angles in rad, not in degrees.")] = False,

@@ -9,7 +9,9 @@ import typer
 
 
 def command(
-    run: Annotated[str, typer.Argument(metavar="RUN", help="A run folder, a scenario (its latest run), or a log file.")],
+    run: Annotated[
+        str, typer.Argument(metavar="RUN", help="A run folder, a scenario (its latest run), or a log file.")
+    ],
     speed: Annotated[float, typer.Option(metavar="X", help="How many times as fast as it was: 0.01 to 100.")] = 1.0,
     first: Annotated[float, typer.Option("--from", metavar="SECONDS", min=0.0, help="Where to begin.")] = 0.0,
     last: Annotated[float, typer.Option("--to", metavar="SECONDS", help="Where to end.")] = math.inf,

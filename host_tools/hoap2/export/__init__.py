@@ -43,7 +43,9 @@ def order(source: Source, wanted: list[str], every: int, progress: Callable[[int
 def run(form: str, wanted: Order, path: Path, force: bool) -> Path:
     """Write one format (`csv`, `parquet`, `mcap`, `rrd`); the file is there whole or not at all."""
     if path.exists() and not force:
-        raise UserError(f"{path} is there already; nothing was overwritten", "choose another name with --out, or --force")
+        raise UserError(
+            f"{path} is there already; nothing was overwritten", "choose another name with --out, or --force"
+        )
     if form in ("csv", "parquet"):
         from hoap2.export.tables import write
     elif form == "mcap":

@@ -27,8 +27,8 @@ def _xyz(*names: str) -> dict:
 
 
 POSE = {"type": "object", "properties": {"position": _xyz("x", "y", "z"), "orientation": _xyz("x", "y", "z", "w")}}
-TRANSFORMS = {"type": "object", "properties": {"transforms": {"type": "array", "items": {"type": "object", "properties": {
-    "timestamp": TIME, "parent_frame_id": TEXT, "child_frame_id": TEXT, "translation": _xyz("x", "y", "z"),
+TRANSFORMS = {"type": "object", "properties": {"transforms": {
+    "type": "array", "items": {"type": "object", "properties": {"timestamp": TIME, "parent_frame_id": TEXT, "child_frame_id": TEXT, "translation": _xyz("x", "y", "z"),
     "rotation": _xyz("x", "y", "z", "w")}}}}}  # fmt: skip
 CUBE = {"type": "object", "properties": {"pose": POSE, "size": _xyz("x", "y", "z"), "color": _xyz("r", "g", "b", "a")}}
 SCENE = {"type": "object", "properties": {
@@ -67,7 +67,9 @@ class _Topics:
             schema_id = self.writer.register_schema(schema[0], "jsonschema", json.dumps(schema[1]).encode())
             self.channels[topic] = self.writer.register_channel(topic, "json", schema_id)
         t_ns = int(tick) * self.tick_ns
-        self.writer.add_message(self.channels[topic], log_time=t_ns, publish_time=t_ns, data=json.dumps(message).encode())
+        self.writer.add_message(
+            self.channels[topic], log_time=t_ns, publish_time=t_ns, data=json.dumps(message).encode()
+        )
 
 
 def _labels(signal: Signal) -> list[list[str]]:
@@ -135,7 +137,9 @@ def _robot(wanted: Order, topics: _Topics) -> None:
     for k, tick in enumerate(rows):
         ns = int(tick) * topics.tick_ns
         stamp = {"sec": ns // 10**9, "nsec": ns % 10**9}
-        topics.put("/tf", ("foxglove.FrameTransforms", TRANSFORMS), tick, {"transforms": list(_transforms(links, k, stamp))})
+        topics.put(
+            "/tf", ("foxglove.FrameTransforms", TRANSFORMS), tick, {"transforms": list(_transforms(links, k, stamp))}
+        )
 
 
 def _entity(link: poses.LinkPoses, stamp: dict) -> dict:

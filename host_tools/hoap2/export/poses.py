@@ -14,7 +14,7 @@ NEEDED = ("p.true_base_pos_W_m", "p.true_base_quat_W", "p.true_q_rad")
 
 @dataclass(frozen=True)
 class LinkPoses:
-    """A link over time in W: position (n, 3) in m, orientation quaternion (n, 4) w x y z, and its box in its frame, m."""
+    """A link over time in W: position (n, 3) in m, quaternion (n, 4) w x y z; and its box in its frame, m."""
 
     name: str
     pos_W_m: np.ndarray
@@ -28,7 +28,7 @@ def multiply(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     aw, ax, ay, az = np.moveaxis(a, -1, 0)
     bw, bx, by, bz = np.moveaxis(b, -1, 0)
     return np.stack([aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
-                     aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw], axis=-1)  # fmt: skip
+                     aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw], -1)  # fmt: skip
 
 
 def rotate(quat: np.ndarray, vector: np.ndarray) -> np.ndarray:

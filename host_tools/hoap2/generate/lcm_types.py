@@ -79,7 +79,7 @@ HEALTH = Message("health_t", "How the run is doing on its machine; the only mess
 
 EVENT = Message("event_t", "Something happened.",
     HEADER + _fields([
-        ("string", "kind", "run_started, step, fault, fall, command_accepted, command_refused, push, run_ended or note"),
+        ("string", "kind", "run_started, step, fault, fall, command_accepted, command_refused, push, run_ended, note"),
         ("string", "text", "for people"),
     ]))  # fmt: skip
 
@@ -159,7 +159,7 @@ def schema_hash(table: Table) -> int:
 
 
 def messages(table: Table) -> list[Message]:
-    run = Message("run_t", "Which run this is. At its start, each second of the wall clock, and at its end.", RUN_FIELDS,
+    run = Message("run_t", "Which run this is: at its start, each second of the wall clock, at its end.", RUN_FIELDS,
                   (*STATES, ("int64_t", "SCHEMA_HASH", schema_hash(table))))  # fmt: skip
     return [*(_of_signals(table, name) for name in MESSAGES), HEALTH, EVENT, run, COMMAND, ANSWER]
 

@@ -30,7 +30,9 @@ class Config(ctypes.Structure):
 class Counts(ctypes.Structure):
     """hoap2_telemetry_counts_t"""
 
-    _fields_ = [(name, ctypes.c_int64) for name in ("logged", "published", "dropped", "decimated", "spent_ns", "sender_ns")]
+    _fields_ = [
+        (name, ctypes.c_int64) for name in ("logged", "published", "dropped", "decimated", "spent_ns", "sender_ns")
+    ]
 
 
 @lru_cache(maxsize=1)

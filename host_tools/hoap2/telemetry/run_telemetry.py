@@ -67,7 +67,9 @@ class RunTelemetry:
 
         Raises UserError when a sink cannot be opened.
         """
-        config = library.Config(run_id=self.about.run_id, paced=self.pace is not None, tick_us=parameters.table().tick_us)
+        config = library.Config(
+            run_id=self.about.run_id, paced=self.pace is not None, tick_us=parameters.table().tick_us
+        )
         config.log_path = None if self.log_path is None else str(self.log_path).encode()
         config.live_url = None if self.url is None else self.url.encode()
         config.real = log.real.ctypes.data_as(ctypes.POINTER(ctypes.c_double))

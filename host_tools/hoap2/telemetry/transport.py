@@ -24,7 +24,7 @@ def check_url(url: str) -> None:
     provider, separator, _ = url.partition("://")
     if not separator or provider not in PROVIDERS:
         raise UserError(f"not an LCM URL: {url!r}",
-                        f"for example {DEFAULT_URL}, memq:// (within one process) or file:///path/log.lcm?mode=w")  # fmt: skip
+                        f"for example {DEFAULT_URL}, memq:// (one process) or file:///path/log.lcm?mode=w")  # fmt: skip
     if provider in ("udpm", "mpudpm"):
         _check_group(url)
 

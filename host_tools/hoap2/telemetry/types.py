@@ -23,7 +23,17 @@ STATE, GAIT, TRUTH, HEALTH, EVENT, RUN, COMMAND, ANSWER = CHANNELS
 VARIABLE = frozenset({EVENT, RUN, COMMAND, ANSWER})  # their length depends on what they hold
 FINGERPRINT_BYTES = 8
 HEADER = struct.Struct(">qqqq")  # run_id, sequence, tick, time_us; behind the fingerprint, in all but a command
-EVENT_KINDS = ("run_started", "step", "fault", "fall", "command_accepted", "command_refused", "push", "run_ended", "note")
+EVENT_KINDS = (
+    "run_started",
+    "step",
+    "fault",
+    "fall",
+    "command_accepted",
+    "command_refused",
+    "push",
+    "run_ended",
+    "note",
+)
 
 
 class Foreign(ValueError):
