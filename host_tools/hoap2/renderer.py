@@ -39,6 +39,12 @@ GRID_DTYPE = np.dtype(
     align=True,
 )  # fmt: skip
 
+# hoap2_mesh_vertex_t of sim/include/hoap2_render/robot_mesh.h.
+VERTEX_DTYPE = np.dtype(
+    [("pos_L_m", np.float32, (3,)), ("normal_L", np.float32, (3,)), ("albedo", np.float32, (3,)),
+     ("gloss", np.float32), ("link", np.float32)]
+)  # fmt: skip
+
 
 class Scene:
     """What is to be drawn. Every field of hoap2_scene_t is an attribute (numbers and numpy views)."""
@@ -115,6 +121,8 @@ def library() -> ctypes.CDLL:
     lib.hoap2_render_error.restype, lib.hoap2_render_error.argtypes = ctypes.c_char_p, [pointer]
     lib.hoap2_render_set_soil.argtypes = [pointer, pointer, pointer, pointer, ctypes.c_double]
     lib.hoap2_render_scene_size.restype = ctypes.c_size_t
+    lib.hoap2_render_robot_mesh_size.argtypes = [real, ctypes.POINTER(real), ctypes.POINTER(real)]
+    lib.hoap2_render_robot_mesh.argtypes = [real, pointer, pointer]
     _declare_replay(lib)
     sizes = (lib.hoap2_render_scene_size(), lib.hoap2_soil_replay_grid_size())
     if sizes != (SCENE_DTYPE.itemsize, GRID_DTYPE.itemsize):
@@ -134,6 +142,19 @@ def _declare_replay(lib: ctypes.CDLL) -> None:
     lib.hoap2_soil_replay_surface.restype, lib.hoap2_soil_replay_surface.argtypes = None, [pointer] * 3
     lib.hoap2_soil_replay_error.restype, lib.hoap2_soil_replay_error.argtypes = ctypes.c_char_p, [pointer]
     lib.hoap2_soil_replay_params_size.restype = lib.hoap2_soil_replay_grid_size.restype = ctypes.c_size_t
+
+
+def robot_mesh(coarse: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """The robot's surface in link coordinates: vertices (VERTEX_DTYPE) and triangles (n, 3).
+
+    coarse: fewer triangles and no small parts.
+    """
+    vertices, indices = ctypes.c_int32(), ctypes.c_int32()
+    failed = library().hoap2_render_robot_mesh_size(coarse, ctypes.byref(vertices), ctypes.byref(indices))
+    vertex, index = np.empty(vertices.value, dtype=VERTEX_DTYPE), np.empty((indices.value // 3, 3), dtype=np.uint32)
+    if failed or library().hoap2_render_robot_mesh(coarse, vertex.ctypes.data, index.ctypes.data) != 0:
+        raise UserError("no robot to draw: out of memory")
+    return vertex, index
 
 
 class Renderer:

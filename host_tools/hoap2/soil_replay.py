@@ -26,45 +26,42 @@ class Surface:
     change_m: np.ndarray  # against the untouched surface
 
 
-class SoilReplay:
-    """Moves the links through a fresh pool, forward through the rows of a run."""
+class Pool:
+    """A fresh pool of soil through which the links are moved, a row of 1 ms at a time.
 
-    def __init__(self, run: Recording) -> None:
+    plant: the resolved plant values of a run.
+    """
+
+    def __init__(self, plant: dict) -> None:
         self._handle = None
         self._lib = library()
-        self._params = _parameters(run.plant)
+        self._params = _parameters(plant)
         if self._lib.hoap2_soil_replay_params_size() != _size(self._params):
             raise UserError("the pictures were built from another signals.toml", "build again: ./hoap2 fmu build", 3)
         self._handle = self._lib.hoap2_soil_replay_create(self._params.pointer)
         if not self._handle:
             raise UserError(f"no soil: {self._lib.hoap2_soil_replay_error(None).decode()}")
-        self._motion = [np.ascontiguousarray(run.signal[name], dtype=np.float64) for name in _MOTION]
-        self._done = 0  # rows that were replayed
         self.grid = np.zeros((), dtype=GRID_DTYPE)
         self._lib.hoap2_soil_replay_grid(self._handle, self.grid.ctypes.data)
-        self.full_scale_m = full_scale_m(run)
         shape = (int(self.grid["ny"]), int(self.grid["nx"]))
         self._surface = Surface(self.grid, np.zeros(shape, np.float32), np.zeros(shape, np.float32))
 
-    def surface(self, row: int) -> Surface:
-        """The ground at a row of the run; the same arrays each time. Going forward costs only the rows between."""
-        if not 0 <= row < len(self._motion[0]):
-            raise IndexError(f"row {row} of {len(self._motion[0])}")
-        if row + 1 < self._done:
-            self._lib.hoap2_soil_replay_restart(self._handle)
-            self._done = 0
-        parts = [block[self._done : row + 1] for block in self._motion]
-        # Where the run could not go on (a foot left the pool) the ground stays as it was.
-        self._lib.hoap2_soil_replay_advance(self._handle, len(parts[0]), *(part.ctypes.data for part in parts))
-        self._done = row + 1
+    def restart(self) -> None:
+        """Back to the fresh pool."""
+        self._lib.hoap2_soil_replay_restart(self._handle)
+
+    def advance(self, *motion: np.ndarray) -> None:
+        """The next rows: true_base_pos_W_m (n, 3), true_base_quat_W (n, 4), true_q_rad (n, 25), contiguous.
+
+        Where the run could not have gone on (a foot left the pool) the ground stays as it was.
+        """
+        self._lib.hoap2_soil_replay_advance(self._handle, len(motion[0]), *(part.ctypes.data for part in motion))
+
+    def look(self) -> Surface:
+        """The ground now; the same arrays each time."""
         self._lib.hoap2_soil_replay_surface(self._handle, self._surface.height_m.ctypes.data,
                                             self._surface.change_m.ctypes.data)  # fmt: skip
         return self._surface
-
-    def show(self, camera: Renderer, row: int) -> None:
-        """The ground at a row in the camera's next pictures."""
-        surface = self.surface(row)
-        camera.set_soil(surface.grid, surface.height_m, surface.change_m, self.full_scale_m)
 
     @property
     def note(self) -> str:
@@ -85,6 +82,32 @@ class SoilReplay:
 
     def __del__(self) -> None:
         self.close()
+
+
+class SoilReplay(Pool):
+    """Moves the links through a fresh pool, forward through the rows of a run."""
+
+    def __init__(self, run: Recording) -> None:
+        super().__init__(run.plant)
+        self._motion = [np.ascontiguousarray(run.signal[name], dtype=np.float64) for name in _MOTION]
+        self._done = 0  # rows that were replayed
+        self.full_scale_m = full_scale_m(run)
+
+    def surface(self, row: int) -> Surface:
+        """The ground at a row of the run; the same arrays each time. Going forward costs only the rows between."""
+        if not 0 <= row < len(self._motion[0]):
+            raise IndexError(f"row {row} of {len(self._motion[0])}")
+        if row + 1 < self._done:
+            self.restart()
+            self._done = 0
+        self.advance(*(block[self._done : row + 1] for block in self._motion))
+        self._done = row + 1
+        return self.look()
+
+    def show(self, camera: Renderer, row: int) -> None:
+        """The ground at a row in the camera's next pictures."""
+        surface = self.surface(row)
+        camera.set_soil(surface.grid, surface.height_m, surface.change_m, self.full_scale_m)
 
 
 def of_run(run: Recording) -> SoilReplay | None:

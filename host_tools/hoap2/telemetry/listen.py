@@ -82,16 +82,19 @@ class Listener:
     """Listens on one LCM URL. `poll` handles what has come, in the thread that calls it.
 
     url: None is LCM_DEFAULT_URL or the default. channels: names, or None for all. on_message(channel, message) is
-    called for each good message; without it only the last message of a channel is decoded, when it is asked for.
+    called for each good message of the channels handed_on (None: all). Of the other channels only the last message is
+    decoded, when it is asked for.
     """
 
     def __init__(self, url: str | None = None, channels: Iterable[str] | None = None,
-                 on_message: Callable[[str, object], None] | None = None) -> None:  # fmt: skip
+                 on_message: Callable[[str, object], None] | None = None,
+                 handed_on: Iterable[str] | None = None) -> None:  # fmt: skip
         self.url = transport.url_or_default(url)
         self.latest = Latest()
         self.counters: dict[str, Counter] = {}
         self.last_s: dict[str, float] = {}  # channel -> time.monotonic() of its last good message
         self._on_message = on_message
+        self._handed_on = frozenset(types.CHANNELS if handed_on is None else handed_on)
         self._handled = 0
         types.bindings()
         self._lcm = transport.connect(self.url)
@@ -151,8 +154,9 @@ class Listener:
         except types.Malformed:
             counter.malformed += 1
             return
-        message = types.decode(channel, data) if self._on_message is not None else None
+        wanted = self._on_message is not None and channel in self._handed_on
+        message = types.decode(channel, data) if wanted else None
         self.latest.put(channel, data, message)
         self.last_s[channel] = time.monotonic()
-        if self._on_message is not None:
+        if wanted:
             self._on_message(channel, message)

@@ -1,0 +1,1 @@
+"""The monitor: what a run does, live over LCM or afterwards from its folder."""
