@@ -136,7 +136,10 @@ class LiveHub:
                     self._follow(listener)
             except UserError as error:
                 with self._lock:
-                    self._listener, self.problem = None, str(error.message) + (f"\n{error.hint}" if error.hint else "")
+                    self._listener, self.problem = None, error.message + (f"\n{error.hint}" if error.hint else "")
+            except OSError as error:  # a log that was played to its end, a network that went away
+                with self._lock:
+                    self._listener, self.problem = None, f"the connection ended: {error}"
             self._stop.wait(RETRY_S)
 
     def _follow(self, listener: Listener) -> None:

@@ -168,9 +168,8 @@ export class App {
   private event(event: RunEvent): void {
     const { t_s, event: kind, text } = event;
     const told = { t_s, event: kind, text };
-    if (this.source === this.live)
-      this.events.add(told); // shares the live run's list
-    else this.live.events.push(told);
+    this.live.event(told);
+    if (this.source === this.live) this.events.add(told);
   }
 
   private block(block: Block): void {

@@ -7,6 +7,7 @@ import { Track } from './track';
 
 const LIVE_ROWS = 6000; // at 100 Hz a minute
 const MAX_STEPS = 400;
+const MAX_EVENTS = 300;
 
 export interface Source {
   readonly live: boolean;
@@ -136,6 +137,11 @@ export class LiveRun implements Source {
   step(step: Step): void {
     this.steps.push(step);
     if (this.steps.length > MAX_STEPS) this.steps.shift();
+  }
+
+  event(event: RunEvent): void {
+    this.events.push(event);
+    if (this.events.length > MAX_EVENTS) this.events.shift();
   }
 
   rows(block: Block): void {
