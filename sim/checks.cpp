@@ -128,6 +128,15 @@ std::string fault_of_inputs(const hoap2_plant_inputs_t &in) {
     if (!(in.kd_Nms_rad[j] >= 0.0 && in.kd_Nms_rad[j] <= kInputLimit)) return input_fault("kd_Nms_rad", j);
     if (in.drive_mode[j] < 0 || in.drive_mode[j] >= kDriveModes) return input_fault("drive_mode", j);
   }
+  for (int i = 0; i < 3; ++i) {
+    const double force_N = in.push_now_force_W_N[i], point_m = in.push_now_point_L_m[i];
+    if (!(force_N >= HOAP2_PUSH_NOW_FORCE_W_N_LOW && force_N <= HOAP2_PUSH_NOW_FORCE_W_N_HIGH))
+      return "input push_now_force_W_N is out of its range";
+    if (!(point_m >= HOAP2_PUSH_NOW_POINT_L_M_LOW && point_m <= HOAP2_PUSH_NOW_POINT_L_M_HIGH))
+      return "input push_now_point_L_m is out of its range";
+  }
+  if (in.push_now_link < HOAP2_PUSH_NOW_LINK_LOW || in.push_now_link > HOAP2_PUSH_NOW_LINK_HIGH)
+    return "input push_now_link is out of its range";
   return "";
 }
 

@@ -45,7 +45,9 @@ class Plant {
   int build_soil();
   void give_up_world();
   std::string restore_soil(const void *bytes, std::size_t size);
-  void apply_pushes(LinkLoad load[HOAP2_LINKS], State *next) const;
+  void apply_push(int link, const double force_W_N[3], const double point_L_m[3], LinkLoad load[HOAP2_LINKS],
+                  State *next) const;
+  void apply_pushes(const hoap2_plant_inputs_t &inputs, LinkLoad load[HOAP2_LINKS], State *next) const;
   int solve(const hoap2_plant_inputs_t &inputs, State *next);
   bool correct_saturation(const double rate_rad_s[HOAP2_JOINTS], bool may_release);
 
@@ -165,20 +167,24 @@ std::string Plant::restore_soil(const void *bytes, std::size_t size) {
   return on_soil() ? soil_.restore(bytes) : "";
 }
 
-void Plant::apply_pushes(LinkLoad load[HOAP2_LINKS], State *next) const {
+void Plant::apply_push(int link, const double force_W_N[3], const double point_L_m[3],
+                       LinkLoad load[HOAP2_LINKS], State *next) const {
+  const Vec3 force = vec(force_W_N);
+  if (dot(force, force) == 0.0) return;
+  const Vec3 arm_W_m = point_W_m(state_, link, vec(point_L_m)) - vec(state_.body[link].com_pos_W_m);
+  load[link].force_W_N = load[link].force_W_N + force;
+  load[link].torque_com_W_Nm = load[link].torque_com_W_Nm + cross(arm_W_m, force);
+  put(vec(next->push_force_W_N) + force, next->push_force_W_N);
+}
+
+void Plant::apply_pushes(const hoap2_plant_inputs_t &inputs, LinkLoad load[HOAP2_LINKS], State *next) const {
   put(Vec3{}, next->push_force_W_N);
   for (int i = 0; i < kPushes; ++i) {
     double force_W_N[3];
     push_force(state_.params, state_.tick, i, force_W_N);
-    const Vec3 force = vec(force_W_N);
-    if (dot(force, force) == 0.0) continue;
-    const int link = state_.params.push_link[i];
-    const Vec3 arm_W_m =
-        point_W_m(state_, link, vec(state_.params.push_point_L_m[i])) - vec(state_.body[link].com_pos_W_m);
-    load[link].force_W_N = load[link].force_W_N + force;
-    load[link].torque_com_W_Nm = load[link].torque_com_W_Nm + cross(arm_W_m, force);
-    put(vec(next->push_force_W_N) + force, next->push_force_W_N);
+    apply_push(state_.params.push_link[i], force_W_N, state_.params.push_point_L_m[i], load, next);
   }
+  apply_push(inputs.push_now_link, inputs.push_now_force_W_N, inputs.push_now_point_L_m, load, next);
 }
 
 // Puts rows at their torque limits, or (first time) releases them, as the rates ask
@@ -202,7 +208,7 @@ int Plant::solve(const hoap2_plant_inputs_t &inputs, State *next) {
   double rate_rad_s[HOAP2_JOINTS];
   for (int j = 0; j < HOAP2_JOINTS; ++j) drive_[j].begin(state_, inputs, j);
   ground_.find_contacts(state_, axes_W_, &contacts_);
-  apply_pushes(load, next);
+  apply_pushes(inputs, load, next);
   if (on_soil()) {
     const std::string fault = soil_.find_loads(state_, axes_W_, soil_load_);
     if (!fault.empty()) return fail(fault);

@@ -2,6 +2,7 @@
 
 #include "core/behaviours.h"
 #include "core/quintic.h"
+#include "core/requests.h"
 #include "gait_cp/gait_cp.h"
 #include "sense/sense.h"
 
@@ -49,9 +50,19 @@ static void calibrate(hoap2_state_t *state, int good, double q_ref_rad[]) {
   if (phase >= 1.0) {
     hoap2_sense_calibrate_end(&state->sense);
     state->gait.feedback = 1;
-    hoap2_behaviour(state->params.behaviour)->start(state);
+    if (state->gait.request.walk == HOAP2_WALK_REQUEST_AS_PLANNED)
+      hoap2_behaviour(state->params.behaviour)->start(state);
     enter(state, HOAP2_MODE_STAND);
   }
+}
+
+/* Standing, or walking: a walk that the operator asks for begins from standing. */
+static void behave(hoap2_state_t *state, double q_ref_rad[]) {
+  hoap2_gait_t *gait = &state->gait;
+  if (!gait->walking && gait->request.walk == HOAP2_WALK_REQUEST_WALK && hoap2_requests_may_walk(state))
+    hoap2_gait_start(&state->params, gait);
+  hoap2_behaviour(state->params.behaviour)->step(state, q_ref_rad);
+  state->mode.mode = gait->walking ? HOAP2_MODE_WALK : HOAP2_MODE_STAND;
 }
 
 /* After a fault: the step under way is finished without feedback, then a rest, then the crouch. */
@@ -97,10 +108,7 @@ void hoap2_mode_step(hoap2_state_t *state, int good, double q_ref_rad[HOAP2_SIZE
     case HOAP2_MODE_START_UP: start_up(state, q_ref_rad); break;
     case HOAP2_MODE_CALIBRATE: calibrate(state, good, q_ref_rad); break;
     case HOAP2_MODE_STAND:
-    case HOAP2_MODE_WALK:
-      hoap2_behaviour(state->params.behaviour)->step(state, q_ref_rad);
-      state->mode.mode = state->gait.walking ? HOAP2_MODE_WALK : HOAP2_MODE_STAND;
-      break;
+    case HOAP2_MODE_WALK: behave(state, q_ref_rad); break;
     case HOAP2_MODE_HOLD: hold(state, q_ref_rad); break;
     case HOAP2_MODE_CROUCH: crouch(state, q_ref_rad); break;
     default: copy_joints(state->out.q_ref_rad, q_ref_rad); break;

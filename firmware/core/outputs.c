@@ -1,5 +1,6 @@
 #include "core/outputs.h"
 
+#include "core/requests.h"
 #include "core/scalar_math.h"
 #include "hoap2/generated/robot_model.h"
 
@@ -131,6 +132,7 @@ static void fill_gait(const start_pose_t *start, double hip_height_m, const hoap
   out->steps_done = gait->steps_done;
   out->stance_foot = gait->swing_foot == 2 ? 2 : 1 - gait->swing_foot;
   out->walk_done = gait->walk_done;
+  for (int i = 0; i < 3; ++i) out->step_advance_m_rad[i] = gait->advance[i];
 }
 
 void hoap2_fill_outputs(hoap2_state_t *state, const double q_ref_rad[HOAP2_SIZE_JOINT]) {
@@ -143,4 +145,5 @@ void hoap2_fill_outputs(hoap2_state_t *state, const double q_ref_rad[HOAP2_SIZE_
   state->out.tick = state->mode.tick;
   state->out.mode = state->mode.mode;
   state->out.fault = state->mode.fault;
+  state->out.request_state = hoap2_request_state(state);
 }

@@ -1,8 +1,9 @@
-/* The controller's tick: inputs -> sense -> mode manager -> behaviour -> limits -> outputs. */
+/* The controller's tick: inputs -> sense -> requests -> mode manager -> behaviour -> limits -> outputs. */
 #include <string.h>
 
 #include "core/mode_manager.h"
 #include "core/outputs.h"
+#include "core/requests.h"
 #include "core/watchdog.h"
 #include "gait_cp/gait_cp.h"
 #include "hoap2/state.h"
@@ -31,6 +32,7 @@ int32_t hoap2_init(hoap2_state_t *state, const hoap2_params_t *params) {
   hoap2_gait_reset(&state->params, &state->gait);
   memcpy(state->stance_q_rad, state->gait.q_ref_rad, sizeof state->stance_q_rad);
   if (state->mode.fault == 0) state->mode.fault = hoap2_gait_check_reach(&state->params, &state->gait);
+  state->gait.in_place_fault = hoap2_gait_check_in_place(&state->params, &state->gait);
   if (hoap2_clip_to_limits(state->stance_q_rad)) state->mode.fault |= HOAP2_FAULT_JOINT_LIMIT;
   state->mode.mode = state->mode.fault ? HOAP2_MODE_SAFE : HOAP2_MODE_START_UP;
   double q_ref_rad[HOAP2_SIZE_JOINT];
@@ -43,10 +45,8 @@ int32_t hoap2_init(hoap2_state_t *state, const hoap2_params_t *params) {
 int32_t hoap2_tune(hoap2_state_t *state, const hoap2_params_t *params) {
   const int bad = hoap2_params_out_of_range(params);
   if (bad > 0) return (int32_t)bad;
-  if (!fits_together(params)) return 1;
-  state->params.tpcc_kp_1_s2 = params->tpcc_kp_1_s2;
-  state->params.tpcc_kv_1_s = params->tpcc_kv_1_s;
-  state->params.tpcc_kx_1_s2 = params->tpcc_kx_1_s2;
+  if (!fits_together(params)) return -1;
+  hoap2_params_tune(&state->params, params);
   return 0;
 }
 
@@ -54,6 +54,7 @@ void hoap2_step(hoap2_state_t *state, const hoap2_inputs_t *inputs, hoap2_output
   const int good = hoap2_watchdog_step(state, inputs);
   if (good)
     hoap2_sense_step(&state->params, &state->held, &state->gait.feet, state->gait.omega_1_s, &state->sense);
+  hoap2_requests_step(state, inputs);
   double q_ref_rad[HOAP2_SIZE_JOINT];
   hoap2_mode_step(state, good, q_ref_rad);
   if (hoap2_limit_references(state->out.q_ref_rad, q_ref_rad)) state->mode.fault |= HOAP2_FAULT_JOINT_LIMIT;

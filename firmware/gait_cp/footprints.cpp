@@ -1,13 +1,11 @@
 #include "gait_cp/footprints.hpp"
 
 #include "core/scalar_math.h"
+#include "gait_cp/plane.hpp"
 #include "hoap2/generated/robot_model.h"
 
 namespace hoap2 {
 namespace {
-
-// +1 for the left foot, -1 for the right: the side on which a foot stands.
-double side(int foot) { return foot == 1 ? 1.0 : -1.0; }
 
 void offset_point(const double footprint[3], double ahead_m, double left_m, double point_m[2]) {
   const double c = hoap2_cos(footprint[2]);
@@ -23,14 +21,12 @@ void footprint_beside(const double centre[3], int foot, double step_width_m, dou
   footprint[2] = centre[2];
 }
 
-void advance_centre(const hoap2_params_t& params, int swing_foot, bool in_place, double centre[3]) {
-  if (in_place) return;
-  const double sideways_m = params.step_sideways_m;
-  const double turn_rad = params.step_turn_rad;
-  const double left_m = sideways_m * side(swing_foot) > 0.0 ? 2.0 * sideways_m : 0.0;
-  const double yaw_rad = turn_rad * side(swing_foot) > 0.0 ? 2.0 * turn_rad : 0.0;
+void advance_centre(const Advance& advance, int swing_foot, double centre[3]) {
+  if (advance.in_place) return;
+  const double left_m = advance.sideways_m * side(swing_foot) > 0.0 ? 2.0 * advance.sideways_m : 0.0;
+  const double yaw_rad = advance.turn_rad * side(swing_foot) > 0.0 ? 2.0 * advance.turn_rad : 0.0;
   double mid[3] = {centre[0], centre[1], centre[2] + 0.5 * yaw_rad};
-  offset_point(mid, params.step_length_m, left_m, centre);
+  offset_point(mid, advance.length_m, left_m, centre);
   centre[2] += yaw_rad;
 }
 

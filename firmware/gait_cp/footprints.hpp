@@ -13,8 +13,16 @@ namespace hoap2 {
 // The footprint of `foot` (0 right, 1 left) beside a centre (x, y, yaw).
 void footprint_beside(const double centre[3], int foot, double step_width_m, double footprint[3]);
 
-// Moves the centre by one step of the swing foot; in_place: it stays.
-void advance_centre(const hoap2_params_t& params, int swing_foot, bool in_place, double centre[3]);
+// L_x, the sideways advance and L_theta (left positive) of a step.
+struct Advance {
+  double length_m;
+  double sideways_m;
+  double turn_rad;
+  bool in_place;  // none of them counts
+};
+
+// Moves the centre by one step of the swing foot.
+void advance_centre(const Advance& advance, int swing_foot, double centre[3]);
 
 // Where the capture point shall be over a single footprint: ahead of the ankle and inward by the offsets of
 // the parameters (section 7.2.2 b).

@@ -22,7 +22,11 @@ void hoap2_gait_reset(const hoap2_params_t *params, hoap2_gait_t *gait);
  * when a joint would have to exceed its velocity limit by more than the reference limiter can smooth away. */
 int32_t hoap2_gait_check_reach(const hoap2_params_t *params, const hoap2_gait_t *gait);
 
-/* Begin the walk of params from standing. */
+/* The same for steps in place, whatever the behaviour: any of the faults above, or 0 when a walk on request
+ * may begin. */
+int32_t hoap2_gait_check_in_place(const hoap2_params_t *params, const hoap2_gait_t *gait);
+
+/* Begin the walk of params from standing, or one on request when gait->request.walk says so. */
 void hoap2_gait_start(const hoap2_params_t *params, hoap2_gait_t *gait);
 
 /* One tick: joint references in gait->q_ref_rad. sense is used only where gait->feedback is 1. */

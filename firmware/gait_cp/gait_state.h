@@ -7,6 +7,12 @@
 #include "hoap2/generated/signals.h"
 #include "sense/sense_state.h"
 
+/* What the operator asks for, as the firmware has taken it: finite, and within its range. */
+typedef struct {
+  double step[3]; /* advance of a step: length (m), sideways (m), turn (rad) */
+  int32_t walk;   /* HOAP2_WALK_REQUEST_* */
+} hoap2_request_t;
+
 typedef struct {
   /* pendulum constants */
   double omega_1_s; /* sqrt(g / com_height) */
@@ -53,6 +59,14 @@ typedef struct {
   double com_over_base_B_m[3]; /* CoM against the pelvis, last solution */
   double q_ref_rad[HOAP2_SIZE_JOINT];
   hoap2_feet_t feet;
+
+  /* requests */
+  hoap2_request_t request;
+  double advance[3];       /* of the step under way, as request.step */
+  int32_t on_request;      /* 1: the walk takes the requested steps and goes on until it is told to stop */
+  int32_t drawn_in;        /* 1: the step under way is shorter than requested, the legs could not do it */
+  int32_t closing;         /* 1: the step under way ends the walk */
+  int32_t in_place_fault;  /* faults of steps in place with these parameters; 0: a walk on request may begin */
 
   int32_t phase;
   int32_t step_index; /* 0 while the capture point travels to the first stance foot */

@@ -1,13 +1,12 @@
 #include "gait_cp/landing_control.hpp"
 
-#include "core/quintic.h"
 #include "core/scalar_math.h"
 #include "gait_cp/capture_point.hpp"
 #include "gait_cp/footprints.hpp"
-#include "gait_cp/swing.hpp"
+#include "gait_cp/leg_look.hpp"
+#include "gait_cp/plane.hpp"
 #include "gait_cp/walk_plan.hpp"
 #include "hoap2/generated/robot_model.h"
-#include "robot/leg_ik.hpp"
 
 namespace hoap2 {
 namespace {
@@ -18,27 +17,11 @@ namespace {
 constexpr double kSensedLate_s = 0.016;
 constexpr double kNonsense_m = 0.2;    // a larger deviation is no measurement
 constexpr double kTooNear_m = 1e-9;    // spacing short by less is rounding
-constexpr double kLegMargin_m = 3e-3;  // of a leg's reach, for what the coarse look below leaves out
+constexpr double kSpareReach_m = 3e-3;  // of a leg's reach
 
-double absolute(double value) { return value < 0.0 ? -value : value; }
 double least(double a, double b) { return a < b ? a : b; }
 double clip(double value, double low, double high) {
   return value < low ? low : (value > high ? high : value);
-}
-double side(int foot) { return foot == 1 ? 1.0 : -1.0; }
-
-void to_ground(const double axes_rad, const double along_across[2], double ground[2]) {
-  const double c = hoap2_cos(axes_rad);
-  const double s = hoap2_sin(axes_rad);
-  ground[0] = c * along_across[0] - s * along_across[1];
-  ground[1] = s * along_across[0] + c * along_across[1];
-}
-
-void from_ground(const double axes_rad, const double ground[2], double along_across[2]) {
-  const double c = hoap2_cos(axes_rad);
-  const double s = hoap2_sin(axes_rad);
-  along_across[0] = c * ground[0] + s * ground[1];
-  along_across[1] = -s * ground[0] + c * ground[1];
 }
 
 void shifted(const double footprint[3], const double shift[2], double out[3]) {
@@ -63,7 +46,7 @@ void cop_after(const hoap2_params_t& params, const hoap2_gait_t& gait, bool last
   double centre[3] = {gait.centre[0], gait.centre[1], gait.centre[2]};
   double print[3];
   double eos_m[2];
-  advance_centre(params, after, gait.step_index + 1 > params.steps_forward, centre);
+  advance_centre(advance_of(params, gait, gait.step_index + 1), after, centre);
   footprint_beside(centre, after, params.step_width_m, print);
   if (last_after)
     capture_point_between(params, after == 0 ? print : gait.land_nominal,
@@ -122,71 +105,11 @@ void keep_spacing(const hoap2_params_t& params, const hoap2_gait_t& gait, double
   if (spare_m < -kTooNear_m) shift[1] -= outward * spare_m / hoap2_cos(land[2] - foot[2]);
 }
 
-// A swing to be looked at: from one footprint to another, with both feet shifted on average by mean_shift
-// (O) more than now.
-struct Swing {
-  double from[3];
-  double to[3];
-  double mean_shift[2];
-};
-
-// Joint angles of the swing leg at a part of the step under way; false when the leg is too short or meets a
-// joint limit. A coarse look: the CoM's place in the pelvis is that of now, but for what legs that trail by
-// the shift move it.
-bool swing_leg(const hoap2_params_t& params, const hoap2_gait_t& gait, const Swing& swing, double part,
-               double q_rad[6]) {
-  const double growth = hoap2_exp(gait.omega_1_s * part * gait.step_ticks * kTick_s);
-  const double heading_rad =
-      gait.heading_from_rad + hoap2_quintic(part) * (gait.heading_to_rad - gait.heading_from_rad);
-  double pose[4];
-  swing_foot(swing.from, swing.to, params.lift_m, swing_phase(params, part), pose);
-  double com_over_base[2];
-  to_ground(heading_rad, gait.com_over_base_B_m, com_over_base);
-  double from_base[2];
-  for (int i = 0; i < 2; ++i) {
-    double com_m = gait.com_m[i];
-    double rate_m_s = gait.com_rate_m_s[i];
-    pendulum_after(gait.cop_step_m[i], gait.omega_1_s, 0.5 * (growth + 1.0 / growth),
-                   0.5 * (growth - 1.0 / growth), com_m, rate_m_s);
-    const double legs_m = gait.com_by_legs * swing.mean_shift[i];
-    from_base[i] = pose[i] - (com_m + gait.tpcc_m[i] - com_over_base[i] - legs_m);
-  }
-  double seen[2];
-  from_ground(heading_rad, from_base, seen);
-  Pose sole_B;
-  sole_B.R = rot_z(pose[3] - heading_rad);
-  sole_B.p = Vec3(seen[0], seen[1], pose[2] - params.hip_height_m);
-  LegIkResult leg;
-  leg_ik(gait.swing_foot, sole_B, leg, kLegMargin_m);
-  for (int i = 0; i < 6; ++i) q_rad[i] = leg.q_rad[i];
-  return leg.excess_m <= 0.0 && leg.status != LegIk::joint_limit;
-}
-
-// The same, and the joint rates there within what the walk's check at the start allows.
-bool swing_leg_in_time(const hoap2_params_t& params, const hoap2_gait_t& gait, const Swing& swing,
-                       double part) {
-  double q_rad[6];
-  double later_rad[6];
-  const double ticks = 2.0;
-  if (!swing_leg(params, gait, swing, part, q_rad) ||
-      !swing_leg(params, gait, swing, part + ticks / gait.step_ticks, later_rad))
-    return false;
-  for (int i = 0; i < 6; ++i) {
-    const double limit_rad_s =
-        kRateTolerance * HOAP2_JOINT[leg_first_joint(gait.swing_foot) + i].velocity_limit_rad_s;
-    if (absolute(later_rad[i] - q_rad[i]) > limit_rad_s * ticks * kTick_s) return false;
-  }
-  return true;
-}
-
-// Can the legs do a landing with this shift? Looked at where a swing is hardest: the knee is straightest at
-// lift-off and after touchdown, bends fastest after a quarter and stretches fastest after three quarters of
-// the swing. Two steps later the foot is lifted again from where it landed: that swing is like the present
-// one with the shift at its beginning too, unless the CoM has followed the feet by then.
+// Can the legs do a landing with this shift? Looked at where a swing is hardest. Two steps later the foot is
+// lifted again from where it landed: that swing is like the present one with the shift at its beginning too,
+// unless the CoM has followed the feet by then.
 bool legs_can(const hoap2_params_t& params, const hoap2_gait_t& gait, const double shift[2]) {
-  const double lifts = params.ds_fraction;
-  const double bends = lifts + 0.25 * (1.0 - 2.0 * lifts);
-  const double stretches = 1.0 - bends;
+  const SwingParts at = swing_parts(params);
   const double* foot = gait.foot[gait.swing_foot];
   const double* own = gait.foot_shift_m[gait.swing_foot];
   const double* others = gait.foot_shift_m[1 - gait.swing_foot];
@@ -197,17 +120,20 @@ bool legs_can(const hoap2_params_t& params, const hoap2_gait_t& gait, const doub
   shifted(gait.land_nominal, shift, later.to);
   shifted(print, shift, later.from);
   for (int i = 0; i < 3; ++i) now.from[i] = foot[i];
+  Look look = {{gait.cop_step_m[0], gait.cop_step_m[1]}, {0.0, 0.0}, kSpareReach_m, kRateTolerance};
+  Look look_later = look;
   for (int i = 0; i < 2; ++i) {
     const double all_m = now.to[i] - gait.land_nominal[i];
-    now.mean_shift[i] = 0.5 * (all_m - own[i]);
-    later.mean_shift[i] = all_m - 0.5 * (own[i] + others[i]);
+    look.mean_shift[i] = 0.5 * (all_m - own[i]);
+    look_later.mean_shift[i] = all_m - 0.5 * (own[i] + others[i]);
   }
   double q_rad[6];
-  if (!swing_leg(params, gait, now, 1.0, q_rad) || !swing_leg_in_time(params, gait, now, bends) ||
-      !swing_leg_in_time(params, gait, now, stretches))
+  if (!swing_leg(params, gait, look, now, 1.0, q_rad) ||
+      !swing_leg_in_time(params, gait, look, now, at.bends) ||
+      !swing_leg_in_time(params, gait, look, now, at.stretches))
     return false;
-  return params.lpc_moves_cp ||
-         (swing_leg(params, gait, later, lifts, q_rad) && swing_leg_in_time(params, gait, later, bends));
+  return params.lpc_moves_cp || (swing_leg(params, gait, look_later, later, at.lifts, q_rad) &&
+                                 swing_leg_in_time(params, gait, look_later, later, at.bends));
 }
 
 // Draws a shift that the legs cannot do towards the one the foot stands with, with which the swing is the
@@ -261,7 +187,7 @@ double next_shift(double extreme_m, double shift_m, double threshold_m, double g
 }
 
 void shift_landing(const hoap2_params_t& params, bool last, hoap2_gait_t& gait) {
-  const bool last_after = gait.step_index + 1 == params.steps_forward + params.steps_in_place;
+  const bool last_after = ends_walk(params, gait, gait.step_index + 1);
   gait.lpc_axes_rad = gait.land_nominal[2];
   double shift[2];
   for (int i = 0; i < 2; ++i) {

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
 constexpr int kReachSteps = 8;           // a step's geometry repeats after two steps
+constexpr int kInPlaceSteps = 4;
 constexpr double kReachExcess_m = 2e-4;  // draw-back of a leg that counts as out of reach
 
 double clip(double value, double limit) { return value < -limit ? -limit : (value > limit ? limit : value); }
@@ -108,16 +109,15 @@ void stand_still(hoap2_gait_t& gait) {
 
 // What follows when a step, the shift or the settling has run its time.
 void next_event(const hoap2_params_t& params, hoap2_gait_t& gait) {
-  const int32_t total = params.steps_forward + params.steps_in_place;
   const bool settling = gait.swing_foot == 2 && gait.step_index > 0;
   if (settling) {
     gait.walking = 0;
-    gait.walk_done = gait.steps_done == total && !gait.cp_lost;
+    gait.walk_done = gait.closing && !gait.cp_lost;
     stand_still(gait);
     return;
   }
   if (gait.swing_foot != 2) end_step(gait);
-  if (gait.steps_done >= total || gait.stop_requested) {
+  if (gait.closing || gait.stop_requested) {
     if (gait.step_index == 0) gait.step_index = 1;  // stopped before the first lift
     begin_settling(params, gait);
   } else {
@@ -189,6 +189,26 @@ int32_t trial_fault(const hoap2_gait_t& trial, const double q_last_rad[HOAP2_SIZ
   return 0;
 }
 
+// Walks `trial` from standing in open loop, for so many steps and a settling; returns what is impossible.
+int32_t try_walk(const hoap2_params_t& params, int steps, hoap2_gait_t& trial) {
+  hoap2_sense_t blind;
+  memset(&blind, 0, sizeof blind);
+  trial.feedback = 0;
+  hoap2_gait_start(&params, &trial);
+  const int32_t ticks = step_ticks(4.0 / trial.omega_1_s) + step_ticks(params.start_shift_s) +
+                        steps * step_ticks(params.step_time_s);
+  int32_t fault = 0;
+  for (int32_t tick = 0; tick < ticks && trial.walking; ++tick) {
+    double q_last_rad[HOAP2_SIZE_JOINT];
+    memcpy(q_last_rad, trial.q_ref_rad, sizeof q_last_rad);
+    hoap2_gait_step(&params, &blind, &trial);
+    fault |= trial_fault(trial, q_last_rad);
+    // A knee that nears the straight leg is too fast before it is out of reach: the cause is told alone.
+    if (fault & HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
+  }
+  return fault;
+}
+
 }  // namespace
 }  // namespace hoap2
 
@@ -218,26 +238,19 @@ int32_t hoap2_gait_check_reach(const hoap2_params_t* params, const hoap2_gait_t*
   if (gait->pulled_back || gait->joint_limit) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
   if (params->behaviour != HOAP2_BEHAVIOUR_WALK_CP) return 0;
   hoap2_gait_t trial = *gait;
-  hoap2_sense_t blind;
-  memset(&blind, 0, sizeof blind);
-  trial.feedback = 0;
-  hoap2_gait_start(params, &trial);
-  const int32_t ticks = hoap2::step_ticks(4.0 / gait->omega_1_s) + hoap2::step_ticks(params->start_shift_s) +
-                        hoap2::kReachSteps * hoap2::step_ticks(params->step_time_s);
-  int32_t fault = 0;
-  for (int32_t tick = 0; tick < ticks && trial.walking; ++tick) {
-    double q_last_rad[HOAP2_SIZE_JOINT];
-    memcpy(q_last_rad, trial.q_ref_rad, sizeof q_last_rad);
-    hoap2_gait_step(params, &blind, &trial);
-    fault |= hoap2::trial_fault(trial, q_last_rad);
-    // A knee that nears the straight leg is too fast before it is out of reach: the cause is told alone.
-    if (fault & HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
-  }
-  return fault;
+  return hoap2::try_walk(*params, hoap2::kReachSteps, trial);
+}
+
+int32_t hoap2_gait_check_in_place(const hoap2_params_t* params, const hoap2_gait_t* gait) {
+  if (gait->pulled_back || gait->joint_limit) return HOAP2_FAULT_FOOTPRINT_OUT_OF_REACH;
+  hoap2_gait_t trial = *gait;
+  trial.request = {{0.0, 0.0, 0.0}, HOAP2_WALK_REQUEST_WALK};
+  return hoap2::try_walk(*params, hoap2::kInPlaceSteps, trial);
 }
 
 void hoap2_gait_start(const hoap2_params_t* params, hoap2_gait_t* gait) {
-  if (params->steps_forward + params->steps_in_place <= 0) {
+  const bool planned = gait->request.walk != HOAP2_WALK_REQUEST_WALK;
+  if (planned && params->steps_forward + params->steps_in_place <= 0) {
     gait->walk_done = 1;
     return;
   }

@@ -4,6 +4,7 @@
 #include "gait_cp/capture_point.hpp"
 #include "gait_cp/footprints.hpp"
 #include "gait_cp/landing_control.hpp"
+#include "gait_cp/requested_step.hpp"
 #include "gait_cp/support_polygon.hpp"
 
 namespace hoap2 {
@@ -15,8 +16,8 @@ constexpr double kCapturePointLost_m = 0.01;
 
 int other(int foot) { return 1 - foot; }
 
-// (7.8), (7.9) or its ramp form, and the clamp of 7.2.2 d.
-void plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, double duration_s,
+// (7.8), (7.9) or its ramp form, and the clamp of 7.2.2 d. False when that had to act.
+bool plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, double duration_s,
               hoap2_gait_t& gait) {
   const bool ramp = params.cop_profile == HOAP2_COP_PROFILE_RAMP;
   const double growth = hoap2_exp(gait.omega_1_s * duration_s);
@@ -40,10 +41,11 @@ void plan_cop(const hoap2_params_t& params, const SupportPolygon& polygon, doubl
                                   {gait.cp_eos_m[0], gait.cp_eos_m[1]});
   gait.cop_step_m[0] = inside.x;
   gait.cop_step_m[1] = inside.y;
+  return inside.x == cop[0] && inside.y == cop[1];
 }
 
 // Capture point at the end of the step, over the landing foot or at last between the feet, and the CoP.
-void plan_step(const hoap2_params_t& params, bool last, hoap2_gait_t& gait) {
+bool plan_step(const hoap2_params_t& params, bool last, hoap2_gait_t& gait) {
   const int swing = gait.swing_foot;
   const int stance = other(swing);
   if (last) {
@@ -53,7 +55,13 @@ void plan_step(const hoap2_params_t& params, bool last, hoap2_gait_t& gait) {
   } else {
     capture_point_over(params, gait.land, swing, gait.cp_eos_m);
   }
-  plan_cop(params, sole_polygon(gait.foot[stance], params.cop_margin_m), params.step_time_s, gait);
+  return plan_cop(params, sole_polygon(gait.foot[stance], params.cop_margin_m), params.step_time_s, gait);
+}
+
+// The operator wants no further step of this walk, or none any more.
+bool stop_asked(const hoap2_gait_t& gait) {
+  const int32_t asked = gait.request.walk;
+  return asked == HOAP2_WALK_REQUEST_STOP || (gait.on_request && asked != HOAP2_WALK_REQUEST_WALK);
 }
 
 }  // namespace
@@ -64,10 +72,25 @@ double ramp_s(const hoap2_params_t& params, const hoap2_gait_t& gait) {
   return params.cop_ramp_s < double_support_s ? params.cop_ramp_s : double_support_s;
 }
 
+bool ends_walk(const hoap2_params_t& params, const hoap2_gait_t& gait, int32_t index) {
+  return stop_asked(gait) || (!gait.on_request && index == params.steps_forward + params.steps_in_place);
+}
+
+Advance advance_of(const hoap2_params_t& params, const hoap2_gait_t& gait, int32_t index) {
+  if (stop_asked(gait)) return {0.0, 0.0, 0.0, true};
+  if (gait.on_request) return {gait.advance[0], gait.advance[1], gait.advance[2], false};
+  return {params.step_length_m, params.step_sideways_m, params.step_turn_rad, index > params.steps_forward};
+}
+
 int32_t step_ticks(double duration_s) { return static_cast<int32_t>(duration_s / kTick_s + 0.5); }
 
 void begin_shift(const hoap2_params_t& params, hoap2_gait_t& gait) {
   const int stance = other(params.first_swing_foot);
+  for (int i = 0; i < 3; ++i) gait.centre[i] = 0.5 * (gait.foot[0][i] + gait.foot[1][i]);
+  for (int i = 0; i < 3; ++i) gait.advance[i] = 0.0;
+  gait.on_request = gait.request.walk == HOAP2_WALK_REQUEST_WALK;
+  gait.drawn_in = 0;
+  gait.closing = 0;
   gait.walking = 1;
   gait.walk_done = 0;
   gait.step_index = 0;
@@ -83,20 +106,32 @@ void begin_shift(const hoap2_params_t& params, hoap2_gait_t& gait) {
            gait);
 }
 
-void begin_step(const hoap2_params_t& params, hoap2_gait_t& gait) {
-  const int swing = gait.step_index == 0 ? params.first_swing_foot : other(gait.swing_foot);
-  const int stance = other(swing);
-  const bool last = gait.step_index + 1 == params.steps_forward + params.steps_in_place;
-  ++gait.step_index;
-  gait.swing_foot = swing;
-  gait.step_tick = 0;
-  gait.step_ticks = step_ticks(params.step_time_s);
-  advance_centre(params, swing, gait.step_index > params.steps_forward, gait.centre);
-  footprint_beside(gait.centre, swing, params.step_width_m, gait.land_nominal);
+bool lay_step(const hoap2_params_t& params, const Advance& advance, bool last, hoap2_gait_t& gait) {
+  const int stance = other(gait.swing_foot);
+  advance_centre(advance, gait.swing_foot, gait.centre);
+  footprint_beside(gait.centre, gait.swing_foot, params.step_width_m, gait.land_nominal);
   for (int i = 0; i < 3; ++i) gait.land[i] = gait.land_nominal[i];
   gait.heading_from_rad = gait.heading_rad;
   gait.heading_to_rad = 0.5 * (gait.foot[stance][2] + gait.land[2]);
-  plan_step(params, last, gait);
+  gait.advance[0] = advance.in_place ? 0.0 : advance.length_m;
+  gait.advance[1] = advance.in_place ? 0.0 : advance.sideways_m;
+  gait.advance[2] = advance.in_place ? 0.0 : advance.turn_rad;
+  return plan_step(params, last, gait);
+}
+
+void begin_step(const hoap2_params_t& params, hoap2_gait_t& gait) {
+  gait.swing_foot = gait.step_index == 0 ? params.first_swing_foot : other(gait.swing_foot);
+  if (gait.request.walk == HOAP2_WALK_REQUEST_WALK) gait.on_request = 1;
+  ++gait.step_index;
+  gait.step_tick = 0;
+  gait.step_ticks = step_ticks(params.step_time_s);
+  const bool last = ends_walk(params, gait, gait.step_index);
+  gait.closing = last;
+  gait.drawn_in = 0;
+  if (gait.on_request && !last)
+    lay_requested_step(params, gait);
+  else
+    lay_step(params, advance_of(params, gait, gait.step_index), last, gait);
   if (!params.landing_control) return;
   shift_landing(params, last, gait);
   // The plan goes on as if no landing were shifted, but ends over the middle of the feet as they stand.

@@ -63,7 +63,11 @@ int hoap2_product_tune(void *model, const void *params) {
   model_t *self = model;
   const int32_t refused = hoap2_tune(self->state, params);
   if (refused == 0) return 0;
-  snprintf(self->error, sizeof self->error, "%d tunable values are out of range", (int)refused);
+  if (refused > 0)
+    snprintf(self->error, sizeof self->error, "%d values are out of range", (int)refused);
+  else
+    snprintf(self->error, sizeof self->error,
+             "they do not go together: contact_off_N <= contact_on_N, tpcc_kx_1_s2 > tpcc_kp_1_s2 unless that is 0");
   return 1;
 }
 

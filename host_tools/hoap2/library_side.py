@@ -23,6 +23,10 @@ class LibrarySide:
         self.real_out, self.int_out = product.outputs.flat()
         self.step = product.step
 
+    def set_input(self, name: str, value) -> None:
+        """One row of the inputs."""
+        self.product.inputs.view(name)[...] = value
+
     def get_outputs(self) -> None:
         """Nothing to do: a step leaves its outputs in the struct."""
 

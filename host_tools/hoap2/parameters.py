@@ -23,6 +23,12 @@ def known(product: str) -> dict[str, tables.Signal]:
     return {s.name: s for s in table().select(product, "parameter")}
 
 
+@lru_cache(maxsize=4)
+def operator_inputs(product: str) -> dict[str, tables.Signal]:
+    """Inputs of a product that the other one does not drive, by name."""
+    return {s.name: s for s in table().select(product, "input") if s.operator}
+
+
 def defaults() -> Values:
     """Every parameter of both products at its default."""
     return {p: {name: s.default for name, s in known(p).items()} for p in tables.PRODUCTS}

@@ -42,12 +42,13 @@ class FmuSide:
         named = (("real", instance.output_names_real), ("int", instance.output_names_int))
         self.outputs = [Column(name, units[name], kind) for kind, names in named for name in names]
         table = parameters.table()
-        rows = table.select(product, "input")
+        rows = [s for s in table.select(product, "input") if not s.operator or s.name in instance.rows]
         self.inputs = [Column(element, s.unit, s.kind) for s in rows for element in table.element_names(s)]
         self.real_out, self.int_out = instance.outputs_real, instance.outputs_int
         self.real_in, self.int_in = instance.inputs_real, instance.inputs_int
         self.get_outputs, self.set_inputs, self.step = instance.read, instance.write, instance.stepper()
         self.reads_into, self.writes_from = instance.reads_into, instance.writes_from
+        self.set_input, self.set_parameters = instance.set_input, instance.set_parameters
 
 
 @dataclass

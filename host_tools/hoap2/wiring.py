@@ -11,6 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
+from hoap2 import parameters
 from hoap2.errors import UserError
 from hoap2.signal_log import PREFIX, Column, SignalLog
 
@@ -22,8 +23,9 @@ class Side(Protocol):
     """What the master needs of a product, be it an FMU or a library.
 
     A side may also have `reads_into(real, integer)` and `writes_from(real, integer)`: RowCalls that move all its
-    outputs into, or all its inputs from, a row of these arrays (ticks, elements; the elements of a row are
-    neighbours in memory) without using the arrays below.
+    outputs into, or its inputs from, a row of these arrays (ticks, elements; the elements of a row are
+    neighbours in memory) without using the arrays below. Arrays with fewer columns than there are inputs hold the
+    first ones; the others, which are the operator's, keep what `set_input(name, values)` gave them.
     """
 
     outputs: list[Column]  # without prefix, reals first
@@ -69,18 +71,23 @@ def connect(source: Side, target: Side) -> list[tuple[np.ndarray, np.ndarray, Pl
 
 
 def check_connections(controller: Side, plant: Side) -> None:
-    """An input of either side that the other does not drive is an error, not a default."""
+    """An input of either side that the other does not drive is an error, not a default, but for the operator's."""
     for target, source, who, other in (
         (controller, plant, "controller", "plant"),
         (plant, controller, "plant", "controller"),
     ):
         have = {(c.name, c.kind) for c in source.outputs}
-        missing = [c.name for c in target.inputs if (c.name, c.kind) not in have]
+        open_ones = _operator_elements(who)
+        missing = [c.name for c in target.inputs if (c.name, c.kind) not in have and c.name not in open_ones]
         if missing:
             raise UserError(
                 f"the {other} has no output for {len(missing)} input(s) of the {who}: {', '.join(missing[:5])}",
                 "both must use the names of docs/generated/signals.md",
             )
+
+
+def _operator_elements(product: str) -> set[str]:
+    return {e for s in parameters.operator_inputs(product).values() for e in parameters.table().element_names(s)}
 
 
 def log_columns(controller: Side, plant: Side) -> list[Column]:
@@ -124,7 +131,7 @@ def reader(side: Side, real: np.ndarray, integer: np.ndarray) -> RowCall:
 def writer(source: Side, target: Side, real: np.ndarray, integer: np.ndarray) -> RowCall:
     """Sets the inputs of the target from a row of these arrays, which hold the source's outputs."""
     places, rows = _places(source, target), {"real": real, "int": integer}
-    if hasattr(target, "writes_from") and _all_in_order(target, places):
+    if hasattr(target, "writes_from") and _in_order(target, places):
         return target.writes_from(*(rows[kind][:, places[kind][1] if kind in places else slice(0)] for kind in KINDS))
     wires = [(getattr(target, f"{kind}_in"), rows[kind], *place) for kind, place in places.items()]
     set_inputs = target.set_inputs
@@ -137,11 +144,10 @@ def writer(source: Side, target: Side, real: np.ndarray, integer: np.ndarray) ->
     return write
 
 
-def _all_in_order(target: Side, places: dict[str, tuple[Place, Place]]) -> bool:
-    """Every input of the target is driven, and in the source its values are neighbours in the same order."""
+def _in_order(target: Side, places: dict[str, tuple[Place, Place]]) -> bool:
+    """The driven inputs of the target come first, and in the source their values are neighbours in the same order."""
     for kind in KINDS:
-        count = sum(c.kind == kind for c in target.inputs)
         index_in, index_out = places.get(kind, (slice(0, 0), slice(0, 0)))
-        if index_in != slice(0, count) or not isinstance(index_out, slice):
+        if not isinstance(index_in, slice) or index_in.start != 0 or not isinstance(index_out, slice):
             return False
     return True

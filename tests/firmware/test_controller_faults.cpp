@@ -17,7 +17,8 @@ using namespace hoap2_tests;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 // All real inputs lie in front of the integer ones.
-constexpr size_t kRealInputs = offsetof(hoap2_inputs_t, sensor_tick) / sizeof(double);
+// of the sensors; the requests behind them are no sensor values
+constexpr size_t kRealInputs = offsetof(hoap2_inputs_t, step_length_request_m) / sizeof(double);
 constexpr size_t kRealOutputs = offsetof(hoap2_outputs_t, drive_mode) / sizeof(double);
 
 double& input(hoap2_inputs_t& in, size_t index) { return reinterpret_cast<double*>(&in)[index]; }

@@ -171,4 +171,29 @@ TEST(ControllerState, TuningChangesTunableParametersOnlyAndRefusesBadOnes) {
   EXPECT_EQ(loop.state.params.tpcc_kp_1_s2, 11.0);
 }
 
+TEST(ControllerState, TuningTakesArraysAndRefusesWhatDoesNotGoTogether) {
+  Loop loop(short_walk());
+  hoap2_params_t wanted = loop.state.params;
+  wanted.lpc_gain[1] = 0.31;
+  wanted.cp_filter_s = 0.2;
+  wanted.cp_offset_inward_m = 0.013;
+  wanted.step_time_s = 0.7;
+  ASSERT_EQ(hoap2_tune(&loop.state, &wanted), 0);
+  hoap2_params_t expected = short_walk();
+  expected.lpc_gain[1] = 0.31;
+  expected.cp_filter_s = 0.2;
+  expected.cp_offset_inward_m = 0.013;
+  EXPECT_EQ(std::memcmp(&loop.state.params, &expected, HOAP2_PARAMS_BYTES), 0);
+  wanted.lpc_gain[1] = 0.5;
+  wanted.tpcc_kx_1_s2 = wanted.tpcc_kp_1_s2;  // the compliance would run to its limit
+  EXPECT_EQ(hoap2_tune(&loop.state, &wanted), -1);
+  wanted.tpcc_kx_1_s2 = expected.tpcc_kx_1_s2;
+  wanted.contact_off_N = wanted.contact_on_N + 1.0;
+  EXPECT_EQ(hoap2_tune(&loop.state, &wanted), -1);
+  wanted.contact_off_N = expected.contact_off_N;
+  wanted.lpc_gain[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(hoap2_tune(&loop.state, &wanted), 1);
+  EXPECT_EQ(std::memcmp(&loop.state.params, &expected, HOAP2_PARAMS_BYTES), 0);
+}
+
 }  // namespace

@@ -93,7 +93,9 @@ std::vector<Step> walk(TiltedLoop& tilted, Tilt tilt) {
     Step step = {};
     step.swing_foot = gait.swing_foot;
     if (gait.step_index > 0) {
-      hoap2::advance_centre(params, gait.swing_foot, gait.step_index > params.steps_forward, centre);
+      const bool in_place = gait.step_index > params.steps_forward;
+      hoap2::advance_centre({params.step_length_m, params.step_sideways_m, params.step_turn_rad, in_place},
+                            gait.swing_foot, centre);
       hoap2::footprint_beside(centre, gait.swing_foot, params.step_width_m, step.nominal);
       std::copy(gait.land, gait.land + 3, step.land);
       std::copy(gait.foot[1 - gait.swing_foot], gait.foot[1 - gait.swing_foot] + 3, step.stance);

@@ -24,7 +24,8 @@ size_t hoap2_state_size(void);
 int32_t hoap2_init(hoap2_state_t *state, const hoap2_params_t *params);
 
 /* Change tunable parameters between ticks; all others keep their value.
- * Returns the number of refused (out of range) elements; then nothing changes. */
+ * Returns 0, the number of elements out of range, or -1 when the values do not go together (fault
+ * bad_parameter says which must); unless it is 0, nothing changes. */
 int32_t hoap2_tune(hoap2_state_t *state, const hoap2_params_t *params);
 
 /* One tick of exactly HOAP2_TICK_US. Never fails: bad inputs lead to the safe

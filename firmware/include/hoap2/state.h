@@ -24,6 +24,8 @@ typedef struct {
   int32_t bad_ticks;                      /* consecutive frames with bad values */
   int32_t stale_ticks;                    /* consecutive frames without a new sensor_tick */
   int32_t last_sensor_tick;
+  int32_t request_clipped; /* a requested value of this tick was beyond its range */
+  int32_t request_bad;     /* the request of this tick was not finite or not known: the last good one holds */
   int32_t tick;
 } hoap2_mode_state_t;
 

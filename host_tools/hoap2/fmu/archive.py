@@ -142,7 +142,7 @@ class FmuArchive:
         return {v.name for v in self.description.modelVariables}
 
     def _expected_names(self, table: Table, product: str, group: str) -> set[str]:
-        rows = table.select(product, group)
+        rows = [s for s in table.select(product, group) if not s.operator]
         return {n for s in rows for n in (table.element_names(s) if self.version == 2 else [s.name])}
 
     def _find_product(self, table: Table) -> str:
@@ -163,7 +163,7 @@ class FmuArchive:
         )
 
     def _rows(self, table: Table) -> dict[str, Row]:
-        """Inputs and outputs must all be there; parameters as far as the FMU has them."""
+        """Inputs and outputs must all be there; parameters and the operator's inputs as far as the FMU has them."""
         variables = {v.name: v for v in self.description.modelVariables}
         rows: dict[str, Row] = {}
         for group in ("input", "output", "parameter"):
@@ -171,7 +171,7 @@ class FmuArchive:
                 elements = tuple(table.element_names(s))
                 names = elements if self.version == 2 else (s.name,)
                 missing = [n for n in names if n not in variables]
-                if missing and group == "parameter":
+                if missing and (group == "parameter" or s.operator):
                     continue
                 if missing:
                     raise FmuVariableError(

@@ -18,6 +18,7 @@ class Exchange:
     """One direction and kind: an array, its references, and the FMI call that moves it."""
 
     def __init__(self, rows: list[Row], kind: str, version: int):
+        self._made_of = rows, kind, version
         self.slices: dict[str, slice] = {}
         self.element_names: list[str] = []
         references: list[int] = []
@@ -35,6 +36,16 @@ class Exchange:
     def arguments_for(self, values: ctypes.c_void_p) -> tuple:
         """The FMI call's arguments after the instance, for values at this address (which may change later)."""
         return (self._references, self._count, values, *self._sizes)
+
+    def leading(self, count: int) -> Exchange:
+        """The first rows alone, of `count` elements in all, with an array of their own."""
+        if count == self.array.size:
+            return self
+        rows, kind, version = self._made_of
+        ends = [where.stop for where in self.slices.values()]
+        if count and count not in ends:
+            raise ValueError(f"{count} elements are no whole rows: these end at {ends}")
+        return Exchange(rows[: ends.index(count) + 1 if count else 0], kind, version)
 
     def check_rows(self, rows: np.ndarray) -> None:
         """Each row of (ticks, elements) can be handed to FMI as it lies in memory."""

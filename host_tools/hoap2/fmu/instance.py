@@ -205,6 +205,15 @@ class FmuInstance(WithStates):
     def time_s(self) -> float:
         return self.start_time_s + (self.tick * 1000) / 1e6
 
+    def set_input(self, name: str, value: float | int | npt.ArrayLike) -> None:
+        """One row of the inputs, at once, in the FMU and in the input array."""
+        if name not in self.input_slices:
+            raise FmuVariableError(f"the {self.product} has no input {name}{nearest(name, self.input_slices)}")
+        row = self.rows[name]
+        array = getattr(self, f"inputs_{row.kind}")[self.input_slices[name]]
+        array[:] = np.asarray(value).reshape(-1)
+        self._values_call("Set", row.kind, row.references, array)
+
     def write(self) -> None:
         """Input arrays -> FMU."""
         for function, arguments in self._writers:
@@ -218,7 +227,10 @@ class FmuInstance(WithStates):
                 self._refused("get outputs")
 
     def writes_from(self, real: np.ndarray, integer: np.ndarray) -> Callable[[int], None]:
-        """A function of k (not checked) that sets all inputs from row k of these (ticks, elements), without a copy."""
+        """A function of k (not checked) that sets the inputs from row k of these (ticks, elements), without a copy.
+
+        With fewer columns than inputs it sets the first ones; they must be whole rows of the table.
+        """
         return self._row_function("input", real, integer, "set inputs")
 
     def reads_into(self, real: np.ndarray, integer: np.ndarray) -> Callable[[int], None]:
@@ -226,10 +238,14 @@ class FmuInstance(WithStates):
         return self._row_function("output", real, integer, "get outputs")
 
     def _row_function(self, group: str, real: np.ndarray, integer: np.ndarray, what: str) -> Callable[[int], None]:
+        parts = {kind: self._parts[group, kind] for kind in ("real", "int")}
+        given = {"real": real, "int": integer}
+        if group == "input":
+            parts = {kind: part.leading(given[kind].shape[1]) for kind, part in parts.items()}
         calls = [
-            RowCall(self._functions[group, kind], self._handle, self._parts[group, kind], rows)
-            for kind, rows in (("real", real), ("int", integer))
-            if self._parts[group, kind].array.size
+            RowCall(self._functions[group, kind], self._handle, part, given[kind])
+            for kind, part in parts.items()
+            if part.array.size
         ]
         bound = [(c.function, c.arguments, c.values, c.address, c.stride, c.rows) for c in calls]
 

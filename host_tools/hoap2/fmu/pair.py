@@ -8,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
+from hoap2.parameters import operator_inputs
+
 from .instance import FmuInstance
 
 
@@ -71,6 +73,8 @@ class Pair:
     def _connect(source: FmuInstance, sink: FmuInstance) -> list[tuple[np.ndarray, slice, np.ndarray, slice]]:
         wires = []
         for name, where in sink.input_slices.items():
+            if name in operator_inputs(sink.product):
+                continue
             kind = sink.rows[name].kind
             wires.append(
                 (getattr(source, f"outputs_{kind}"), source.output_slices[name], getattr(sink, f"inputs_{kind}"), where)

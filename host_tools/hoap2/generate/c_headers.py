@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from .tables import Signal, Table
 
 BANNER = "/* Generated from firmware/signals.toml and firmware/hoap2.json by ./hoap2 generate: do not edit. */\n"
@@ -65,6 +67,27 @@ def _ranges(table: Table, product: str, tag: str) -> str:
     return f"static inline int {tag}_out_of_range(const {tag}_t *p) {{\n  int bad_ = 0;\n{body}\n  return bad_;\n}}\n"
 
 
+def _input_ranges(table: Table, product: str) -> str:
+    """LOW and HIGH of the inputs that have a range."""
+    rows = [s for s in table.select(product, "input") if s.low > -math.inf]
+    return "".join(f"#define HOAP2_{s.name.upper()}_{end} {number(x) if s.kind == 'real' else int(x)}\n"
+                   for s in rows for end, x in (("LOW", s.low), ("HIGH", s.high)))
+
+
+def _tune(table: Table, product: str, tag: str) -> str:
+    """A function that takes over the tunable parameters and leaves all others; none without a tunable one."""
+    rows = [s for s in table.select(product, "parameter") if s.tunable]
+    if not rows:
+        return ""
+    lines = []
+    for s in rows:
+        ctype, cast = "double" if s.kind == "real" else "int32_t", "(void *)&"
+        lines.append(f"  for (int i_ = 0; i_ < {s.count}; ++i_) (({ctype} *){cast}to->{s.name})[i_] = "
+                     f"((const {ctype} *)(const void *)&from->{s.name})[i_];")
+    body = "\n".join(lines)
+    return f"static inline void {tag}_tune({tag}_t *to, const {tag}_t *from) {{\n{body}\n}}\n"
+
+
 def _enums(table: Table, used: set[str]) -> str:
     out = []
     for name, values in table.enums.items():
@@ -92,7 +115,9 @@ def signals_header(table: Table, product: str, prefix: str) -> str:
         body += _struct(table, product, group, f"{prefix}_{tag}") + "\n"
     body += _defaults(table, product, "input", f"{prefix}_inputs") + "\n"
     body += _defaults(table, product, "parameter", f"{prefix}_params") + "\n"
+    body += _input_ranges(table, product) + "\n"
     body += _ranges(table, product, f"{prefix}_params")
+    body += _tune(table, product, f"{prefix}_params")
     includes = "#include <math.h>\n#include <stddef.h>\n#include <stdint.h>\n"
     if product == "plant":
         includes += '#include "hoap2/generated/signals.h"\n'

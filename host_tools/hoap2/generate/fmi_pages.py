@@ -20,14 +20,15 @@ ABOUT = {
 Co-Simulation. In:
 encoder angles, gyro, accelerometer, the eight force cells of the feet, and the counter of sensor frames. Out: per joint
 the six drive settings (mode, angle, rate, torque feed-forward, stiffness, damping), and what the controller plans and
-senses. It starts up, calibrates while it stands, walks the planned steps and stands again.</p>
+senses. It starts up, calibrates while it stands, walks the planned steps and stands again. <code>walk_request</code>
+and the step requests beside it let somebody steer the walk; left alone, the parameters decide.</p>
 <p>Inputs that are NaN, out of range or stale (<code>sensor_tick</code> no longer rises) are never an error: the
 controller
 holds, finishes the step, crouches to a safe posture and says so in <code>fault</code> and <code>mode</code>.</p>""",
     "plant": """<p>The robot with its 25 joints in the Open Dynamics Engine: drives, sensors, floor with tilt and
 blocks,
 pushes. In: per joint the six drive settings. Out: the sensors as the controller gets them, and the truth (names that
-begin with <code>true_</code>). The libraries libode and libccd lie beside the binary.</p>
+begin with <code>true_</code>). <code>push_now_force_W_N</code> pushes while it is not zero. The libraries libode and libccd lie beside the binary.</p>
 <p>An input that is NaN, or a motion that blows up, ends the step with an error and a logged reason; the plant then
 stands where it stood before that step.</p>""",
 }
@@ -63,7 +64,9 @@ def _rows_table(table: Table, product: str, group: str) -> str:
     ]
     for s in table.select(product, group):
         cells = [
-            f"<code>{s.name}</code>" + (" <span class=note>tunable</span>" if s.tunable else ""),
+            f"<code>{s.name}</code>"
+            + (" <span class=note>tunable</span>" if s.tunable else "")
+            + (" <span class=note>from the operator</span>" if s.operator else ""),
             " &times; ".join(f"{n} ({table.sizes[n]})" for n in s.size_names) or "1",
             escape(s.unit) if s.kind == "real" else "integer",
             _start(s, group),

@@ -7,11 +7,16 @@ from .tables import PRODUCTS, Signal, Table
 
 
 def connections(table: Table) -> list[tuple[str, str, str, str]]:
-    """(from product, from element, to product, to element): outputs feed inputs of the same name."""
+    """(from product, from element, to product, to element): outputs feed inputs of the same name.
+
+    The operator's inputs are left open.
+    """
     found = []
     for source, sink in (("plant", "controller"), ("controller", "plant")):
         outputs = {s.name: s for s in table.select(source, "output")}
         for s in table.select(sink, "input"):
+            if s.operator:
+                continue
             if s.name not in outputs:
                 raise ValueError(f"the {sink}'s input {s.name} has no output of that name in the {source}")
             output = outputs[s.name]

@@ -37,6 +37,7 @@ class Signal:
     enum: str
     text: str
     telemetry: str = ""  # the LCM message that carries this output
+    operator: bool = False  # an input that no output of the other product drives
 
     @property
     def count(self) -> int:
@@ -111,11 +112,20 @@ def load() -> Table:
         for group in GROUPS:
             for row in raw[product][group]:
                 table.signals.append(_signal(table, product, group, row))
+        _check_operator_inputs(table, product)
     return table
 
 
+def _check_operator_inputs(table: Table, product: str) -> None:
+    """What the other product drives lies in one piece: of each kind, the operator's inputs come last."""
+    for kind in ("real", "int"):
+        of_operator = [s.operator for s in table.select(product, "input") if s.kind == kind]
+        if of_operator != sorted(of_operator):
+            raise ValueError(f"{product}.input: the {kind} inputs from the operator must come last")
+
+
 def _signal(table: Table, product: str, group: str, row: dict) -> Signal:
-    known = {"name", "size", "type", "unit", "default", "range", "tunable", "enum", "text", "telemetry"}
+    known = {"name", "size", "type", "unit", "default", "range", "tunable", "enum", "text", "telemetry", "from"}
     where = f"{product}.{group} {row.get('name')}"
     if set(row) - known:
         raise ValueError(f"{where}: unknown keys {sorted(set(row) - known)}")
@@ -131,6 +141,8 @@ def _signal(table: Table, product: str, group: str, row: dict) -> Signal:
         raise ValueError(f"{where}: unknown enum {row['enum']}")
     if (group == "output") != (row.get("telemetry") in MESSAGES):
         raise ValueError(f"{where}: an output, and nothing else, needs telemetry = one of {', '.join(MESSAGES)}")
+    if "from" in row and (row["from"] != "operator" or group != "input"):
+        raise ValueError(f"{where}: only an input is from somebody, and that is the operator")
     return Signal(product, group, row["name"], row.get("type", "real"), shape, names, row.get("unit", "1"), default,
                   float(low), float(high), row.get("tunable", False), row.get("enum", ""), row["text"],
-                  row.get("telemetry", ""))
+                  row.get("telemetry", ""), "from" in row)

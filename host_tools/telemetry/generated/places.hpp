@@ -54,6 +54,7 @@ inline constexpr place_t GAIT_PLACES[] = {
     {offsetof(hoap2_lcm::gait_t, foot_ref_W_m), 6, true},
     {offsetof(hoap2_lcm::gait_t, foot_ref_yaw_W_rad), 2, true},
     {offsetof(hoap2_lcm::gait_t, footprint_W_m_rad), 3, true},
+    {offsetof(hoap2_lcm::gait_t, step_advance_m_rad), 3, true},
     {offsetof(hoap2_lcm::gait_t, foot_force_est_N), 2, true},
     {offsetof(hoap2_lcm::gait_t, controller_tick), 1, false},
     {offsetof(hoap2_lcm::gait_t, mode), 1, false},
@@ -63,6 +64,7 @@ inline constexpr place_t GAIT_PLACES[] = {
     {offsetof(hoap2_lcm::gait_t, steps_done), 1, false},
     {offsetof(hoap2_lcm::gait_t, stance_foot), 1, false},
     {offsetof(hoap2_lcm::gait_t, walk_done), 1, false},
+    {offsetof(hoap2_lcm::gait_t, request_state), 1, false},
 };
 inline constexpr place_t TRUTH_PLACES[] = {
     {offsetof(hoap2_lcm::truth_t, true_base_pos_W_m), 3, true},

@@ -29,6 +29,8 @@ enum { HOAP2_PHASE_STAND = 0, HOAP2_PHASE_DOUBLE_SUPPORT = 1, HOAP2_PHASE_SINGLE
 enum { HOAP2_CP_CONTROLLER_PLAN = 0, HOAP2_CP_CONTROLLER_CPS = 1, HOAP2_CP_CONTROLLER_CPT = 2 };
 enum { HOAP2_COP_PROFILE_CONSTANT = 0, HOAP2_COP_PROFILE_RAMP = 1 };
 enum { HOAP2_SENSOR_PRESET_IDEAL = 0, HOAP2_SENSOR_PRESET_HOAP2 = 1 };
+enum { HOAP2_WALK_REQUEST_AS_PLANNED = 0, HOAP2_WALK_REQUEST_STOP = 1, HOAP2_WALK_REQUEST_WALK = 2 };
+enum { HOAP2_REQUEST_STATE_NONE = 0, HOAP2_REQUEST_STATE_WAITING = 1, HOAP2_REQUEST_STATE_TAKEN = 2, HOAP2_REQUEST_STATE_LIMITED = 3, HOAP2_REQUEST_STATE_REFUSED = 4 };
 enum { HOAP2_SWITCH_OFF = 0, HOAP2_SWITCH_ON = 1 };
 
 typedef struct {
@@ -36,10 +38,14 @@ typedef struct {
   double gyro_S_rad_s[3]; /* angular velocity of the chest [rad/s] */
   double accel_S_m_s2[3]; /* specific force at the sensor (at rest: +g upward) [m/s2] */
   double cell_force_N[8]; /* foot force cells [N] */
+  double step_length_request_m; /* walk_request walk: advance a step; beyond its range it is limited [m] */
+  double step_sideways_request_m; /* walk_request walk: sideways advance a step (left positive); beyond its range it is limited [m] */
+  double step_turn_request_rad; /* walk_request walk: turn a step (left positive); beyond its range it is limited [rad] */
   int32_t sensor_tick; /* counter of sensor frames; a value that does not change is a stale input */
+  int32_t walk_request; /* as_planned: the walk of the parameters; stop: the next step brings the feet side by side and ends the walk; walk: from standing or in mid-walk, requested steps until stop */
 } hoap2_inputs_t;
 /* bytes of its members, without the padding behind the last one */
-#define HOAP2_INPUTS_BYTES (offsetof(hoap2_inputs_t, sensor_tick) + sizeof(((const hoap2_inputs_t *)0)->sensor_tick))
+#define HOAP2_INPUTS_BYTES (offsetof(hoap2_inputs_t, walk_request) + sizeof(((const hoap2_inputs_t *)0)->walk_request))
 
 typedef struct {
   double q_ref_rad[25]; /* joint angle reference [rad] */
@@ -66,6 +72,7 @@ typedef struct {
   double foot_ref_W_m[2][3]; /* reference of the sole point under each ankle [m] */
   double foot_ref_yaw_W_rad[2]; /* reference yaw of each foot [rad] */
   double footprint_W_m_rad[3]; /* landing target of the present step: x (m), y (m), yaw (rad) [1] */
+  double step_advance_m_rad[3]; /* advance of the present step as planned or as requested, after limits: length (m), sideways (m), turn (rad) [1] */
   double foot_force_est_N[2]; /* sum of the cells of each foot [N] */
   int32_t drive_mode[25]; /* what the drive does with the five values below */
   int32_t tick; /* ticks done since reset */
@@ -76,9 +83,10 @@ typedef struct {
   int32_t steps_done; /* completed steps */
   int32_t stance_foot; /* 0 right, 1 left, 2 both */
   int32_t walk_done; /* 1 when the planned walk is finished and the robot stands */
+  int32_t request_state; /* what became of the walk request: waiting until a step can follow it, taken, limited (beyond its range, or drawn in to what the legs can do), or refused (not finite, unknown, or no walk is possible) */
 } hoap2_outputs_t;
 /* bytes of its members, without the padding behind the last one */
-#define HOAP2_OUTPUTS_BYTES (offsetof(hoap2_outputs_t, walk_done) + sizeof(((const hoap2_outputs_t *)0)->walk_done))
+#define HOAP2_OUTPUTS_BYTES (offsetof(hoap2_outputs_t, request_state) + sizeof(((const hoap2_outputs_t *)0)->request_state))
 
 typedef struct {
   double start_pos_W_m[2]; /* where the robot starts: the point midway between the soles [m] */
@@ -143,7 +151,11 @@ static inline void hoap2_inputs_defaults(hoap2_inputs_t *p) {
   { static const double v_[3] = {0.0, 0.0, 9.81};
     for (int i_ = 0; i_ < 3; ++i_) ((double *)(void *)&(p)->accel_S_m_s2)[i_] = v_[i_]; }
   for (int i_ = 0; i_ < 8; ++i_) ((double *)(void *)&(p)->cell_force_N)[i_] = 0.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->step_length_request_m)[i_] = 0.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->step_sideways_request_m)[i_] = 0.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->step_turn_request_rad)[i_] = 0.0;
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->sensor_tick)[i_] = 0;
+  for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->walk_request)[i_] = 0;
 }
 
 static inline void hoap2_params_defaults(hoap2_params_t *p) {
@@ -205,6 +217,15 @@ static inline void hoap2_params_defaults(hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->stale_limit_ticks)[i_] = 5;
 }
 
+#define HOAP2_STEP_LENGTH_REQUEST_M_LOW -0.08
+#define HOAP2_STEP_LENGTH_REQUEST_M_HIGH 0.08
+#define HOAP2_STEP_SIDEWAYS_REQUEST_M_LOW -0.03
+#define HOAP2_STEP_SIDEWAYS_REQUEST_M_HIGH 0.03
+#define HOAP2_STEP_TURN_REQUEST_RAD_LOW -0.25
+#define HOAP2_STEP_TURN_REQUEST_RAD_HIGH 0.25
+#define HOAP2_WALK_REQUEST_LOW 0
+#define HOAP2_WALK_REQUEST_HIGH 2
+
 static inline int hoap2_params_out_of_range(const hoap2_params_t *p) {
   int bad_ = 0;
   for (int i_ = 0; i_ < 2; ++i_) { const double v_ = ((const double *)(const void *)&p->start_pos_W_m)[i_]; if (!(v_ >= -1000000.0 && v_ <= 1000000.0)) ++bad_; }
@@ -259,6 +280,27 @@ static inline int hoap2_params_out_of_range(const hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->lpc_moves_cp)[i_]; if (!(v_ >= 0 && v_ <= 1)) ++bad_; }
   for (int i_ = 0; i_ < 1; ++i_) { const int32_t v_ = ((const int32_t *)(const void *)&p->stale_limit_ticks)[i_]; if (!(v_ >= 1 && v_ <= 100)) ++bad_; }
   return bad_;
+}
+static inline void hoap2_params_tune(hoap2_params_t *to, const hoap2_params_t *from) {
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->cp_offset_x_m)[i_] = ((const double *)(const void *)&from->cp_offset_x_m)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->cp_offset_inward_m)[i_] = ((const double *)(const void *)&from->cp_offset_inward_m)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->cps_min_dt_s)[i_] = ((const double *)(const void *)&from->cps_min_dt_s)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->cpt_dt_s)[i_] = ((const double *)(const void *)&from->cpt_dt_s)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->cp_filter_s)[i_] = ((const double *)(const void *)&from->cp_filter_s)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->cp_deviation_limit_m)[i_] = ((const double *)(const void *)&from->cp_deviation_limit_m)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->tpcc_kp_1_s2)[i_] = ((const double *)(const void *)&from->tpcc_kp_1_s2)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->tpcc_kv_1_s)[i_] = ((const double *)(const void *)&from->tpcc_kv_1_s)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->tpcc_kx_1_s2)[i_] = ((const double *)(const void *)&from->tpcc_kx_1_s2)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->tpcc_error_limit_m)[i_] = ((const double *)(const void *)&from->tpcc_error_limit_m)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->tpcc_filter_s)[i_] = ((const double *)(const void *)&from->tpcc_filter_s)[i_];
+  for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&to->lpc_threshold_m)[i_] = ((const double *)(const void *)&from->lpc_threshold_m)[i_];
+  for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&to->lpc_gain)[i_] = ((const double *)(const void *)&from->lpc_gain)[i_];
+  for (int i_ = 0; i_ < 2; ++i_) ((double *)(void *)&to->lpc_forget)[i_] = ((const double *)(const void *)&from->lpc_forget)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->lpc_limit_m)[i_] = ((const double *)(const void *)&from->lpc_limit_m)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->attitude_tau_s)[i_] = ((const double *)(const void *)&from->attitude_tau_s)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->com_rate_filter_s)[i_] = ((const double *)(const void *)&from->com_rate_filter_s)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->contact_on_N)[i_] = ((const double *)(const void *)&from->contact_on_N)[i_];
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&to->contact_off_N)[i_] = ((const double *)(const void *)&from->contact_off_N)[i_];
 }
 
 #endif

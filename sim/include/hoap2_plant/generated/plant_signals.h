@@ -18,10 +18,13 @@ typedef struct {
   double tau_ff_Nm[25]; /* joint torque feed-forward [N.m] */
   double kp_Nm_rad[25]; /* drive stiffness [N.m/rad] */
   double kd_Nms_rad[25]; /* drive damping [N.m.s/rad] */
+  double push_now_force_W_N[3]; /* a force from outside while it is not zero, added to the planned pushes; a step with a value beyond its range fails [N] */
+  double push_now_point_L_m[3]; /* its point of application in the link frame [m] */
   int32_t drive_mode[25]; /* drive setting, as the controller's output */
+  int32_t push_now_link; /* its link, in the order of hoap2.json */
 } hoap2_plant_inputs_t;
 /* bytes of its members, without the padding behind the last one */
-#define HOAP2_PLANT_INPUTS_BYTES (offsetof(hoap2_plant_inputs_t, drive_mode) + sizeof(((const hoap2_plant_inputs_t *)0)->drive_mode))
+#define HOAP2_PLANT_INPUTS_BYTES (offsetof(hoap2_plant_inputs_t, push_now_link) + sizeof(((const hoap2_plant_inputs_t *)0)->push_now_link))
 
 typedef struct {
   double q_enc_rad[25]; /* joint angles as the encoders count them [rad] */
@@ -121,7 +124,10 @@ static inline void hoap2_plant_inputs_defaults(hoap2_plant_inputs_t *p) {
     for (int i_ = 0; i_ < 25; ++i_) ((double *)(void *)&(p)->kp_Nm_rad)[i_] = v_[i_]; }
   { static const double v_[25] = {9.350000000000001, 12.0, 9.350000000000001, 12.0, 9.350000000000001, 9.350000000000001, 9.350000000000001, 9.350000000000001, 9.350000000000001, 9.350000000000001, 9.350000000000001, 12.0, 9.350000000000001, 12.0, 9.350000000000001, 9.350000000000001, 9.350000000000001, 9.350000000000001, 9.350000000000001, 9.350000000000001, 12.0, 1.0, 1.0, 0.25, 0.25};
     for (int i_ = 0; i_ < 25; ++i_) ((double *)(void *)&(p)->kd_Nms_rad)[i_] = v_[i_]; }
+  for (int i_ = 0; i_ < 3; ++i_) ((double *)(void *)&(p)->push_now_force_W_N)[i_] = 0.0;
+  for (int i_ = 0; i_ < 3; ++i_) ((double *)(void *)&(p)->push_now_point_L_m)[i_] = 0.0;
   for (int i_ = 0; i_ < 25; ++i_) ((int32_t *)(void *)&(p)->drive_mode)[i_] = 1;
+  for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->push_now_link)[i_] = 1;
 }
 
 static inline void hoap2_plant_params_defaults(hoap2_plant_params_t *p) {
@@ -185,6 +191,13 @@ static inline void hoap2_plant_params_defaults(hoap2_plant_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((int32_t *)(void *)&(p)->block_count)[i_] = 0;
   for (int i_ = 0; i_ < 8; ++i_) ((int32_t *)(void *)&(p)->push_link)[i_] = 0;
 }
+
+#define HOAP2_PUSH_NOW_FORCE_W_N_LOW -200.0
+#define HOAP2_PUSH_NOW_FORCE_W_N_HIGH 200.0
+#define HOAP2_PUSH_NOW_POINT_L_M_LOW -1.0
+#define HOAP2_PUSH_NOW_POINT_L_M_HIGH 1.0
+#define HOAP2_PUSH_NOW_LINK_LOW 0
+#define HOAP2_PUSH_NOW_LINK_HIGH 25
 
 static inline int hoap2_plant_params_out_of_range(const hoap2_plant_params_t *p) {
   int bad_ = 0;
