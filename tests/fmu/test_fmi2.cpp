@@ -302,6 +302,44 @@ TEST(Fmi2, TunableParametersOnly) {
   fmi2FreeInstance(c);
 }
 
+// Each tunable element between steps, within its range; any other parameter not at all.
+TEST(Fmi2, EachTunableElementCanBeSetBetweenSteps) {
+  fmi2Component c = make_in(STEPPING);
+  unsigned refused = 0;
+  for (uint32_t i = 0; i < HOAP2_FMU_PRODUCT.field_count; ++i) {
+    const hoap2_fmu_field_t& f = HOAP2_FMU_PRODUCT.fields[i];
+    if (f.group != HOAP2_FMU_PARAMETER || f.kind != HOAP2_FMU_REAL) continue;
+    for (unsigned reference = f.first_element; reference < f.first_element + f.count; ++reference) {
+      fmi2Real start = 0, got = 0;
+      EXPECT_EQ(fmi2GetReal(c, &reference, 1, &start), fmi2OK);
+      const fmi2Real other = start + 1e-4 * (start < f.high - 1e-4 ? 1.0 : -1.0), beyond = f.high + 1.0;
+      EXPECT_EQ(fmi2SetReal(c, &reference, 1, &other), f.tunable ? fmi2OK : fmi2Error) << f.name;
+      EXPECT_EQ(fmi2SetReal(c, &reference, 1, &beyond), fmi2Error) << f.name;
+      EXPECT_EQ(fmi2GetReal(c, &reference, 1, &got), fmi2OK);
+      EXPECT_EQ(got, f.tunable ? other : start) << f.name;
+    }
+    refused += f.tunable ? 0 : 1;
+  }
+  EXPECT_GT(refused, 10u);
+  fmi2FreeInstance(c);
+}
+
+TEST(Fmi2, TunableParametersThatDoNotGoTogetherAreRefusedWithTheReason) {
+  if (!is_controller()) return;
+  fmi2Component c = make_in(STEPPING);
+  const unsigned reference = field_named("tpcc_kx_1_s2").first_element;
+  const fmi2Real bad = 10.0, good = 90.0; /* the default of tpcc_kp_1_s2 is 20 */
+  fmi2Real got = 0;
+  log_lines.clear();
+  EXPECT_EQ(fmi2SetReal(c, &reference, 1, &bad), fmi2Error);
+  ASSERT_FALSE(log_lines.empty());
+  EXPECT_NE(log_lines[0].text.find("tpcc_kx_1_s2 > tpcc_kp_1_s2"), std::string::npos) << log_lines[0].text;
+  EXPECT_EQ(fmi2SetReal(c, &reference, 1, &good), fmi2OK);
+  EXPECT_EQ(fmi2GetReal(c, &reference, 1, &got), fmi2OK);
+  EXPECT_EQ(got, good);
+  fmi2FreeInstance(c);
+}
+
 TEST(Fmi2, OutOfRangeParameterCanBeMended) {
   fmi2Component c = make_in(INITIALISING);
   const hoap2_fmu_field_t& f = field_named(is_controller() ? "posture_rad" : "start_posture_rad");

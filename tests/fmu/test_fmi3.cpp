@@ -319,6 +319,34 @@ TEST(Fmi3, ARefusedParameterLeavesTheInputsOfTheSameCallAlone) {
   fmi3FreeInstance(c);
 }
 
+// Rows, arrays too; what is tuned is part of the state.
+TEST(Fmi3, EachTunableRowCanBeSetBetweenStepsAndIsKeptInTheState) {
+  fmi3Instance c = make_in(STEPPING);
+  fmi3Instance other = make_in(STEPPING);
+  unsigned arrays = 0;
+  for (uint32_t i = 0; i < HOAP2_FMU_PRODUCT.field_count; ++i) {
+    const hoap2_fmu_field_t& f = HOAP2_FMU_PRODUCT.fields[i];
+    if (f.group != HOAP2_FMU_PARAMETER || f.kind != HOAP2_FMU_REAL) continue;
+    const unsigned row = row_of(f);
+    std::vector<double> values(f.count), got(f.count);
+    EXPECT_EQ(fmi3GetFloat64(c, &row, 1, values.data(), f.count), fmi3OK);
+    for (double& value : values) value += 1e-4 * (value < f.high - 1e-4 ? 1.0 : -1.0);
+    EXPECT_EQ(fmi3SetFloat64(c, &row, 1, values.data(), f.count), f.tunable ? fmi3OK : fmi3Error) << f.name;
+    if (!f.tunable) continue;
+    arrays += f.count > 1 ? 1 : 0;
+    const std::vector<fmi3Byte> bytes = bytes_of(c);
+    fmi3FMUState state = nullptr;
+    EXPECT_EQ(fmi3DeserializeFMUState(other, bytes.data(), bytes.size(), &state), fmi3OK);
+    EXPECT_EQ(fmi3SetFMUState(other, state), fmi3OK);
+    EXPECT_EQ(fmi3FreeFMUState(other, &state), fmi3OK);
+    EXPECT_EQ(fmi3GetFloat64(other, &row, 1, got.data(), f.count), fmi3OK);
+    EXPECT_EQ(got, values) << f.name;
+  }
+  EXPECT_EQ(arrays > 0, is_controller());
+  fmi3FreeInstance(c);
+  fmi3FreeInstance(other);
+}
+
 TEST(Fmi3, StateOfAnotherProductOrTableIsRefused) {
   fmi3Instance c = make_in(STEPPING);
   const std::vector<fmi3Byte> good = bytes_of(c);

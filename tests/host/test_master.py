@@ -48,8 +48,9 @@ def test_all_connections_of_the_table_carry_their_own_signal():
     run(controller, plant, 1)
     for source, target in ((controller, plant), (plant, controller)):
         sent = dict(zip([c.name for c in source.outputs if c.kind == "real"], source.real_out))
+        open_ones = {c.name for c in target.inputs} - {c.name for c in source.outputs}
         for column, value in zip([c for c in target.inputs if c.kind == "real"], target.real_in):
-            assert value == sent[column.name]
+            assert value == (0.0 if column.name in open_ones else sent[column.name])
 
 
 class RowSide(FakeSide):
@@ -66,7 +67,7 @@ class RowSide(FakeSide):
         self.rows_taken = 0
 
         def write(k):
-            self.real_in[:], self.int_in[:] = real[k], integer[k]
+            self.real_in[: real.shape[1]], self.int_in[: integer.shape[1]] = real[k], integer[k]
             self.rows_taken += 1
 
         return write
@@ -105,16 +106,21 @@ def test_outputs_in_another_order_reach_their_inputs():
     outcome = run(controller, plant, 3)
     sent = dict(zip([c.name for c in plant.outputs], plant.real_out))
     assert outcome.error is None and not hasattr(controller, "rows_taken") and plant.rows_taken == 3
-    assert controller.real_in.tolist() == [sent[c.name] for c in controller.inputs if c.kind == "real"]
+    driven = [c for c in controller.inputs if c.kind == "real" and c.name in sent]
+    assert len(driven) > 30 and controller.real_in[: len(driven)].tolist() == [sent[c.name] for c in driven]
+    assert not controller.real_in[len(driven) :].any()
 
 
 def test_an_input_without_a_source_keeps_its_value():
     controller, plant = RowSide("controller"), FakeSide("plant")
-    controller.inputs = [Column("wind_m_s", "m/s", "real"), *controller.inputs]
+    driven = [c for c in controller.inputs if c.name in {o.name for o in plant.outputs}]
+    operators = [c for c in controller.inputs if c not in driven]
+    controller.inputs = [Column("wind_m_s", "m/s", "real"), *driven, *operators]
     controller.real_in = np.full(controller.real_in.size + 1, 5.0)
     real, integer = np.ones((2, plant.real_out.size)), np.ones((2, plant.int_out.size), dtype=np.int32)
     wiring.writer(plant, controller, real, integer)(1)
-    assert controller.real_in.tolist() == [5.0] + [1.0] * (controller.real_in.size - 1)
+    count = sum(c.kind == "real" for c in driven)
+    assert controller.real_in.tolist() == [5.0] + [1.0] * count + [5.0] * (controller.real_in.size - 1 - count)
 
 
 def test_timing_adds_up():
@@ -173,6 +179,18 @@ def test_an_input_that_nobody_drives_is_an_error():
     controller.inputs = [*controller.inputs, Column("wind_m_s", "m/s", "real")]
     with pytest.raises(UserError, match="the plant has no output .* wind_m_s"):
         run(controller, plant, 10)
+
+
+def test_the_operators_inputs_need_no_source_and_stay_as_they_are():
+    """On the copying way too; a side without them is as good."""
+    controller, plant = stepping_controller(), standing_plant()
+    at = [c.name for c in controller.inputs if c.kind == "real"].index("step_turn_request_rad")
+    controller.real_in[at] = 0.125
+    assert run(controller, plant, 20).error is None
+    assert controller.real_in[at] == 0.125
+    plant = standing_plant()
+    plant.inputs = [c for c in plant.inputs if not c.name.startswith("push_now")]
+    assert run(stepping_controller(), plant, 20).error is None
 
 
 def test_progress_is_told():

@@ -135,6 +135,43 @@ TEST_P(FreeMotion, APushTurnsAboutTheComByItsLever) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(expected[i], actual[i], 1e-3 * norm(expected)) << i;
 }
 
+// The operator's push does what a planned one does, and is added to it.
+TEST_P(FreeMotion, APushFromOutsideActsWhileItIsHeld) {
+  Rig planned, live;
+  for (Rig *rig : {&planned, &live}) {
+    rig->float_free();
+    rig->params.push_link[1] = HOAP2_L_CHEST;
+    rig->params.push_force_W_N[1][2] = 2.0;
+    rig->params.push_duration_s[1] = 1.0;
+  }
+  planned.params.push_link[0] = HOAP2_L_HEAD;
+  planned.params.push_force_W_N[0][0] = 6.0;
+  planned.params.push_force_W_N[0][1] = -4.0;
+  planned.params.push_point_L_m[0][2] = 0.05;
+  planned.params.push_start_s[0] = 0.05;
+  planned.params.push_duration_s[0] = 0.1;
+  planned.start();
+  live.start();
+  live.inputs.push_now_link = HOAP2_L_HEAD;
+  live.inputs.push_now_point_L_m[2] = 0.05;
+  for (int tick = 0; tick < 200; ++tick) {
+    const bool on = tick >= 50 && tick < 150;
+    live.inputs.push_now_force_W_N[0] = on ? 6.0 : 0.0;
+    live.inputs.push_now_force_W_N[1] = on ? -4.0 : 0.0;
+    planned.step();
+    live.step();
+    ASSERT_EQ(on ? 6.0 : 0.0, live.out().true_push_force_W_N[0]) << tick;
+    ASSERT_EQ(2.0, live.out().true_push_force_W_N[2]) << tick;
+    for (int i = 0; i < 3; ++i)
+      ASSERT_NEAR(planned.out().true_com_rate_W_m_s[i], live.out().true_com_rate_W_m_s[i], 1e-12) << tick;
+  }
+  const Momentum after = momentum(live.state());
+  EXPECT_NEAR(6.0 * 0.1, after.linear_W_Ns.x, 1e-6);
+  EXPECT_NEAR(-4.0 * 0.1, after.linear_W_Ns.y, 1e-6);
+  EXPECT_NEAR(2.0 * 0.2, after.linear_W_Ns.z, 1e-6);
+  EXPECT_GT(norm(after.angular_com_W_Nms), 1e-3);
+}
+
 TEST(PushProfile, IsSmoothAndEndsInTime) {
   EXPECT_EQ(0.0, push_profile(-1e-9, 0.1, 0.0));
   EXPECT_EQ(1.0, push_profile(0.0, 0.1, 0.0));

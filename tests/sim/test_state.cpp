@@ -173,6 +173,16 @@ TEST_P(StateOfEachSolver, IsKeptWhenAnInputIsRefusedByName) {
   refused("kp_Nm_rad");
   rig.inputs.drive_mode[0] = 9;
   refused("drive_mode");
+  for (double bad : {std::numeric_limits<double>::quiet_NaN(), 200.1, -200.1}) {
+    rig.inputs.push_now_force_W_N[1] = bad;
+    refused("push_now_force_W_N");
+  }
+  rig.inputs.push_now_point_L_m[0] = std::numeric_limits<double>::infinity();
+  refused("push_now_point_L_m");
+  for (int bad : {-1, 26}) {
+    rig.inputs.push_now_link = bad;
+    refused("push_now_link");
+  }
   rig.step(1);
   EXPECT_STREQ("", hoap2_plant_error(rig.plant()));
 }

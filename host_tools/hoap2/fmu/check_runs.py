@@ -239,7 +239,7 @@ def nan_controller(context: Context, version: int) -> str:
         replay(fmu, recorded, 0, 500)
         for tick in range(4000):
             fmu.inputs_real[:] = np.nan
-            fmu.inputs_int[:] = 500 + tick
+            fmu.inputs_int[fmu.input_slices["sensor_tick"]] = 500 + tick
             fmu.write()
             fmu.step()
             fmu.read()
