@@ -62,11 +62,11 @@ typedef struct {
 
   /* requests */
   hoap2_request_t request;
-  double advance[3];       /* of the step under way, as request.step */
-  int32_t on_request;      /* 1: the walk takes the requested steps and goes on until it is told to stop */
-  int32_t drawn_in;        /* 1: the step under way is shorter than requested, the legs could not do it */
-  int32_t closing;         /* 1: the step under way ends the walk */
-  int32_t in_place_fault;  /* faults of steps in place with these parameters; 0: a walk on request may begin */
+  double advance[3];      /* of the step under way, as request.step */
+  int32_t on_request;     /* 1: the walk takes the requested steps and goes on until it is told to stop */
+  int32_t drawn_in;       /* 1: the step under way is shorter than requested, the legs could not do it */
+  int32_t closing;        /* 1: the step under way ends the walk */
+  int32_t in_place_fault; /* faults of steps in place with these parameters; 0: a walk on request may begin */
 
   int32_t phase;
   int32_t step_index; /* 0 while the capture point travels to the first stance foot */

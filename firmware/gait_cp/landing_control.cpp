@@ -15,8 +15,8 @@ namespace {
 // deviation on the hard floor): the servo's 5 ms (no velocity feed-forward), link and sensors, and the sway
 // of the body.
 constexpr double kSensedLate_s = 0.016;
-constexpr double kNonsense_m = 0.2;    // a larger deviation is no measurement
-constexpr double kTooNear_m = 1e-9;    // spacing short by less is rounding
+constexpr double kNonsense_m = 0.2;     // a larger deviation is no measurement
+constexpr double kTooNear_m = 1e-9;     // spacing short by less is rounding
 constexpr double kSpareReach_m = 3e-3;  // of a leg's reach
 
 double least(double a, double b) { return a < b ? a : b; }

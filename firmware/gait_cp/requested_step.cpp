@@ -24,8 +24,7 @@ Advance share_of_request(const hoap2_gait_t& gait, double share) {
 // CoP that the plan comes to is another one.
 void held_cop(const hoap2_gait_t& gait, double cop_m[2]) {
   const double growth = hoap2_exp(gait.omega_1_s * gait.step_ticks * kTick_s);
-  for (int i = 0; i < 2; ++i)
-    cop_m[i] = cop_for_capture_point(gait.cp_eos_m[i], gait.cp_start_m[i], growth);
+  for (int i = 0; i < 2; ++i) cop_m[i] = cop_for_capture_point(gait.cp_eos_m[i], gait.cp_start_m[i], growth);
 }
 
 // The swing foot at a part of the step, and what a look at the legs there assumes.
@@ -37,8 +36,7 @@ Look look_at(const hoap2_params_t& params, const hoap2_gait_t& gait, double part
   double com_m[2];
   swing_foot(lifted, gait.land, params.lift_m, swing_phase(params, part), pose);
   com_at(gait, look.cop_m, part, com_m);
-  for (int i = 0; i < 2; ++i)
-    look.mean_shift[i] = 0.5 * (pose[i] - lifted[i]) - (com_m[i] - gait.com_m[i]);
+  for (int i = 0; i < 2; ++i) look.mean_shift[i] = 0.5 * (pose[i] - lifted[i]) - (com_m[i] - gait.com_m[i]);
   return look;
 }
 
@@ -71,8 +69,8 @@ hoap2_gait_t after_step(const hoap2_params_t& params, const hoap2_gait_t& gait) 
   double in_pelvis[2];
   from_ground(gait.heading_to_rad, look.mean_shift, in_pelvis);
   for (int i = 0; i < 2; ++i) {
-    pendulum_after(look.cop_m[i], gait.omega_1_s, 0.5 * (growth + 1.0 / growth), 0.5 * (growth - 1.0 / growth),
-                   next.com_m[i], next.com_rate_m_s[i]);
+    pendulum_after(look.cop_m[i], gait.omega_1_s, 0.5 * (growth + 1.0 / growth),
+                   0.5 * (growth - 1.0 / growth), next.com_m[i], next.com_rate_m_s[i]);
     next.cop_m[i] = gait.cop_step_m[i];
     next.com_over_base_B_m[i] += gait.com_by_legs * in_pelvis[i];
   }
@@ -93,8 +91,8 @@ bool next_reaches(const hoap2_params_t& params, const hoap2_gait_t& gait, const 
   return legs_reach(params, next, swing_parts(params).lifts, false);
 }
 
-// The walk as if no landing had been shifted by (7.14): that control sees itself that its shifts stay in reach
-// of the legs and keep the feet apart. Where the CoM follows the shifted feet, it is the walk as it is.
+// The walk as if no landing had been shifted by (7.14): that control sees itself that its shifts stay in
+// reach of the legs and keep the feet apart. Where the CoM follows the shifted feet, it is the walk as it is.
 hoap2_gait_t without_shifts(const hoap2_params_t& params, const hoap2_gait_t& gait) {
   hoap2_gait_t plain = gait;
   if (!params.landing_control || params.lpc_moves_cp) return plain;

@@ -16,7 +16,7 @@ namespace hoap2 {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
-constexpr int kReachSteps = 8;           // a step's geometry repeats after two steps
+constexpr int kReachSteps = 8;  // a step's geometry repeats after two steps
 constexpr int kInPlaceSteps = 4;
 constexpr double kReachExcess_m = 2e-4;  // draw-back of a leg that counts as out of reach
 

@@ -11,8 +11,8 @@ constexpr double kTick_s = 1e-6 * HOAP2_TICK_US;
 constexpr double kSoleClearance_m = 2e-3;  // least gap between the soles in a landing
 constexpr double kRateTolerance = 1.2;     // joint rate of the plan against the limit
 
-// Does step number `index` (from 1), still to be laid, end the walk? By the parameters or because the operator
-// asks for it.
+// Does step number `index` (from 1), still to be laid, end the walk? By the parameters or because the
+// operator asks for it.
 bool ends_walk(const hoap2_params_t& params, const hoap2_gait_t& gait, int32_t index);
 
 // Advance of that step. Of a walk on request it is that of the step under way: what the legs can do of it.

@@ -67,7 +67,8 @@ int hoap2_product_tune(void *model, const void *params) {
     snprintf(self->error, sizeof self->error, "%d values are out of range", (int)refused);
   else
     snprintf(self->error, sizeof self->error,
-             "they do not go together: contact_off_N <= contact_on_N, tpcc_kx_1_s2 > tpcc_kp_1_s2 unless that is 0");
+             "they do not go together: contact_off_N <= contact_on_N, tpcc_kx_1_s2 > tpcc_kp_1_s2 unless "
+             "that is 0");
   return 1;
 }
 

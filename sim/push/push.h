@@ -1,4 +1,5 @@
-// Pushes: a force in the world at a point of a link, over a time (of the scenario) or while the input is held.
+// Pushes: a force in the world at a point of a link, over a time (of the scenario) or while the input is
+// held.
 #ifndef HOAP2_SIM_PUSH_PUSH_H
 #define HOAP2_SIM_PUSH_PUSH_H
 

@@ -462,14 +462,16 @@ TEST_P(RoughRequests, StayWithinReachAndRates) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Requests, RoughRequests,
-                         testing::Values(Rough{"book", 0.4, 0.078, 0, 0, 0}, Rough{"slow", 1.0, 0.078, 0, 0, 0},
-                                         Rough{"quick", 0.35, 0.078, 0, 0, 0}, Rough{"wide", 0.5, 0.1, 0, 0, 0},
-                                         Rough{"ramp", 0.4, 0.078, 0, 1, 0}, Rough{"cps", 0.4, 0.078, 0, 0, 1},
-                                         Rough{"cpt", 0.4, 0.078, 0, 0, 2}, Rough{"lpc", 0.4, 0.078, 1, 0, 0}),
+                         testing::Values(Rough{"book", 0.4, 0.078, 0, 0, 0},
+                                         Rough{"slow", 1.0, 0.078, 0, 0, 0},
+                                         Rough{"quick", 0.35, 0.078, 0, 0, 0},
+                                         Rough{"wide", 0.5, 0.1, 0, 0, 0}, Rough{"ramp", 0.4, 0.078, 0, 1, 0},
+                                         Rough{"cps", 0.4, 0.078, 0, 0, 1}, Rough{"cpt", 0.4, 0.078, 0, 0, 2},
+                                         Rough{"lpc", 0.4, 0.078, 1, 0, 0}),
                          [](const auto& chosen) { return std::string(chosen.param.name); });
 
-// What the legs can do is known exactly by the walk's check at the start, which plays the walk. The look before
-// each requested step is coarse: it must neither let much more through nor give much away.
+// What the legs can do is known exactly by the walk's check at the start, which plays the walk. The look
+// before each requested step is coarse: it must neither let much more through nor give much away.
 TEST(Requests, TheLookAheadAgreesWithTheCheckAtTheStart) {
   struct Case {
     double step_time_s;
@@ -488,7 +490,7 @@ TEST(Requests, TheLookAheadAgreesWithTheCheckAtTheStart) {
     params.cop_profile = way.profile;
     if (way.profile == HOAP2_COP_PROFILE_RAMP) params.cp_offset_inward_m = 0.015;
     params.step_length_m = 0.0;
-    double* const value = way.axis == 0 ? &params.step_length_m
+    double* const value = way.axis == 0   ? &params.step_length_m
                           : way.axis == 1 ? &params.step_sideways_m
                                           : &params.step_turn_rad;
     double low = 0.0;
@@ -512,8 +514,9 @@ TEST(Requests, TheLookAheadAgreesWithTheCheckAtTheStart) {
         robot.tick();
         drawn_in |= robot.state.gait.drawn_in;
       }
-      EXPECT_EQ(drawn_in, share > 1.0) << "step " << way.step_time_s << " s, axis " << way.axis << ", "
-                                       << step[way.axis] << ", " << share << " of the most, ramp " << way.profile;
+      EXPECT_EQ(drawn_in, share > 1.0)
+          << "step " << way.step_time_s << " s, axis " << way.axis << ", " << step[way.axis] << ", " << share
+          << " of the most, ramp " << way.profile;
     }
   }
 }
