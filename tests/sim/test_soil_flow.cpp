@@ -123,12 +123,15 @@ TEST(SoilFlow, FilledRutIsLoose) {
   law.lay(&rut, 0.002);
   EXPECT_NEAR(bottom_m + 0.002, rut.surface_m(), 1e-17);
   EXPECT_NEAR(0.004, rut.memory_m, 1e-4);
-  law.lay(&rut, 0.005);
-  EXPECT_NEAR(bottom_m + 0.007, rut.surface_m(), 1e-17);
+  law.lay(&rut, 0.003);
+  EXPECT_NEAR(bottom_m + 0.005, rut.surface_m(), 1e-17);
+  EXPECT_NEAR(0.001, rut.memory_m, 1e-4);
+  law.lay(&rut, 0.004);
+  EXPECT_NEAR(bottom_m + 0.009, rut.surface_m(), 1e-17);
   EXPECT_EQ(0.0, rut.memory_m);
-  EXPECT_NEAR(bottom_m + 0.007, rut.level_m, 1e-17);
+  EXPECT_NEAR(bottom_m + 0.009, rut.level_m, 1e-17);
   law.lay(&rut, -0.003);
-  EXPECT_NEAR(bottom_m + 0.004, rut.surface_m(), 1e-17);
+  EXPECT_NEAR(bottom_m + 0.006, rut.surface_m(), 1e-17);
 }
 
 // Where a rim finds no place it waits.
