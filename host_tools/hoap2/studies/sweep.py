@@ -92,6 +92,7 @@ PREDEFINED = (
     _one("soil-shear", "Soil: shear length K", "plant.soil_shear_m", "x0.5,x0.75,x1,x1.5,x2.5"),
     _one("soil-phi", "Soil: friction angle φ", "plant.soil_friction_rad", "x0.8:x1.2:5"),
     _one("tpcc-gain", "TPCC gain K_p", "controller.tpcc_kp_1_s2", "x0,x0.5,x1,x1.5,x2"),
+    _one("cp-rule", "Control of the capture point", "controller.cp_controller", "plan,cps,cpt"),
     _one("lpc-moves-cp", "CP moves with the landing", "controller.lpc_moves_cp", "off,on"),
     _one("cp-offset-x", "Sagittal offset of the CP", "controller.cp_offset_x_m",
          "0.0065,0.008,0.0085,0.009,0.0095,0.01,0.011"),
@@ -102,4 +103,9 @@ PREDEFINED = (
     _one("lpc-forget", "Landing control: λ", "controller.lpc_forget", "0,0.3,0.5,0.7,0.9"),
     _one("sensors", "Sensors", "scenario.sensors", "ideal,hoap2"),
     _one("soil-law", "Law of the soil", "plant.soil_law", "bekker,rft"),
+    _one("rft-zeta", "Resistive force theory: scale ζ", "plant.soil_rft_zeta", "1.4,3,4,5,6,7,8,10", "plant.soil_law=rft"),
+    _one("softness", "Soil: softer k_φ, down to where landing control fails", "plant.soil_kphi_N_m_n2",
+         "x0.6,x0.65,x0.7,x0.75,x0.8,x0.85,x0.9,x1"),
+    Sweep("offset-k", "Sagittal offset of the CP, and k_φ",
+          (parse("controller.cp_offset_x_m=0.007,0.008,0.009,0.010,0.011"), parse("plant.soil_kphi_N_m_n2=x0.8:x1.2:5"))),
 )  # fmt: skip

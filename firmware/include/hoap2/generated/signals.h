@@ -182,7 +182,7 @@ static inline void hoap2_params_defaults(hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cp_filter_s)[i_] = 0.1;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cp_deviation_limit_m)[i_] = 0.003;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cop_ramp_s)[i_] = 0.08;
-  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_kp_1_s2)[i_] = 20.0;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_kp_1_s2)[i_] = 16.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_kv_1_s)[i_] = 20.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_kx_1_s2)[i_] = 100.0;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->tpcc_error_limit_m)[i_] = 0.03;
