@@ -7,7 +7,7 @@
 #include "../product.h"
 #include "hoap2/generated/signals.h"
 
-#define HOAP2_FMU_TOKEN "{4acd646e-6386-a9bb-3b66-7d16ea38d292}"
+#define HOAP2_FMU_TOKEN "{d1d93a16-a736-2039-8669-d9d65035399e}"
 enum { HOAP2_FMU_FIELDS = 96, HOAP2_FMU_ELEMENTS = 406 };
 
 /* name, group, kind, tunable, FMI 2 value reference of the first element, elements, offset, range */

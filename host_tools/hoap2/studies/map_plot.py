@@ -25,12 +25,19 @@ LOOKS = (
 
 
 def write(base: Path, document: dict) -> list[Path]:
-    """<base>.png and .svg of all sweeps of a map."""
-    sweeps = document["sweeps"]
-    if all(len(sweep["axes"]) == 2 for sweep in sweeps):
+    """<base>.png and .svg of all sweeps over one parameter, and of each over two (alone: <base>, else <base>-<name>)."""
+    lines = [sweep for sweep in document["sweeps"] if len(sweep["axes"]) == 1]
+    maps = [sweep for sweep in document["sweeps"] if len(sweep["axes"]) == 2]
+    written = _write_lines(base, lines, document["scenarios"]) if lines else []
+    for sweep in maps:
+        path = base if len(document["sweeps"]) == 1 else base.with_name(f"{base.name}-{sweep['name']}")
         with style.drawing(style.WIDTH_IN, 3.4) as figure:
-            _heat_maps(figure, sweeps[0], document["scenarios"])
-            return style.save(figure, base)
+            _heat_maps(figure, sweep, document["scenarios"])
+            written += style.save(figure, path)
+    return written
+
+
+def _write_lines(base: Path, sweeps: list[dict], scenarios: list[str]) -> list[Path]:
     rows = math.ceil(len(sweeps) / COLUMNS)
     columns = min(COLUMNS, len(sweeps))
     height = PANEL_IN * rows + 0.5
@@ -40,7 +47,7 @@ def write(base: Path, document: dict) -> list[Path]:
         for number, sweep in enumerate(sweeps):
             inner = grid[number // columns, number % columns].subgridspec(2, 1, height_ratios=(1.1, 1.0), hspace=0.16)
             panels = figure.add_subplot(inner[0]), figure.add_subplot(inner[1])
-            _panel(*panels, sweep, document["scenarios"], number % columns == 0)
+            _panel(*panels, sweep, scenarios, number % columns == 0)
         handles, labels = figure.axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="upper center", ncols=len(labels))
         return style.save(figure, base)

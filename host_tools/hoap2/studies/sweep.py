@@ -95,7 +95,7 @@ PREDEFINED = (
     _one("cp-rule", "Control of the capture point", "controller.cp_controller", "plan,cps,cpt"),
     _one("lpc-moves-cp", "CP moves with the landing", "controller.lpc_moves_cp", "off,on"),
     _one("cp-offset-x", "Sagittal offset of the CP", "controller.cp_offset_x_m",
-         "0.0065,0.008,0.0085,0.009,0.0095,0.01,0.011"),
+         "0.0065,0.0083,0.0088,0.0093,0.0098,0.0103,0.0113"),
     _one("step-length", "Step length L_x", "controller.step_length_m", "-0.015,-0.0075,0.005,0.01,0.015,0.02,0.025",
          *LONG_POOL),
     _one("step-time", "Step time T", "controller.step_time_s", "0.35,0.375,0.4,0.45,0.5"),
@@ -107,5 +107,5 @@ PREDEFINED = (
     _one("softness", "Soil: softer k_φ, down to where landing control fails", "plant.soil_kphi_N_m_n2",
          "x0.6,x0.65,x0.7,x0.75,x0.8,x0.85,x0.9,x1"),
     Sweep("offset-k", "Sagittal offset of the CP, and k_φ",
-          (parse("controller.cp_offset_x_m=0.007,0.008,0.009,0.010,0.011"), parse("plant.soil_kphi_N_m_n2=x0.8:x1.2:5"))),
+          (parse("controller.cp_offset_x_m=0.0073,0.0083,0.0093,0.0103,0.0113"), parse("plant.soil_kphi_N_m_n2=x0.8:x1.2:5"))),
 )  # fmt: skip

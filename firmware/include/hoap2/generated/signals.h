@@ -174,7 +174,7 @@ static inline void hoap2_params_defaults(hoap2_params_t *p) {
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->ds_fraction)[i_] = 0.1;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->lift_m)[i_] = 0.018;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->start_shift_s)[i_] = 0.4;
-  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cp_offset_x_m)[i_] = 0.009;
+  for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cp_offset_x_m)[i_] = 0.0093;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cp_offset_inward_m)[i_] = 0.012;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cop_margin_m)[i_] = 0.004;
   for (int i_ = 0; i_ < 1; ++i_) ((double *)(void *)&(p)->cps_min_dt_s)[i_] = 0.05;
