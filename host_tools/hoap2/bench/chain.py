@@ -1,4 +1,4 @@
-"""`bench run`: a whole run of floor-walk, and where the time of its ticks goes.
+"""`bench run`: a whole run of a scenario, and where the time of its ticks goes.
 
 Real-time factor, wall clock, memory and the durations in the loop are those of an ordinary run in a process of its own.
 A second walk tells how much of the FMUs' steps is FMI: in it the FMUs and the bare libraries go side by side through
@@ -21,7 +21,6 @@ import numpy as np
 
 from hoap2 import master, parameters, scenario
 from hoap2.bench import measure
-from hoap2.bench.measure import SCENARIO
 from hoap2.bench.recording import nested
 from hoap2.binding import Controller, Plant
 from hoap2.errors import UserError
@@ -140,11 +139,11 @@ def split_of(loop_us: dict[str, float], tick_us: float, samples: Samples, overhe
     return {name: split[name] for name in PARTS}
 
 
-def whole_run(fmi: int, duration_s: float | None) -> dict:
+def whole_run(name: str, fmi: int, duration_s: float | None) -> dict:
     """An ordinary run without video in a process of its own, which inherits the one core."""
     with tempfile.TemporaryDirectory(prefix="hoap2-bench-") as folder:
         out, noted = Path(folder) / "run", Path(folder) / "loop.json"
-        command = [sys.executable, "-m", "hoap2.bench.child", str(noted), "run", SCENARIO, "--no-video", "--json",
+        command = [sys.executable, "-m", "hoap2.bench.child", str(noted), "run", name, "--no-video", "--json",
                    "--fmi", str(fmi), "--out", str(out)]
         command += [] if duration_s is None else ["--duration", str(duration_s)]
         begin = time.monotonic()
@@ -156,7 +155,7 @@ def whole_run(fmi: int, duration_s: float | None) -> dict:
             output.seek(0)
             text = output.read()
         if child.returncode not in (0, 1) or not noted.exists():
-            raise UserError(f"the run of {SCENARIO} ended with {child.returncode}", f"try ./hoap2 run {SCENARIO}")
+            raise UserError(f"the run of {name} ended with {child.returncode}", f"try ./hoap2 run {name}")
         summary = json.loads(text)
         notes = json.loads(noted.read_text())
     loop_begin, loop_end = notes["begin"], notes["end"]
@@ -166,25 +165,26 @@ def whole_run(fmi: int, duration_s: float | None) -> dict:
             "peak_memory_mb": usage.ru_maxrss / 1024, "loop": notes["us"], "walking": notes["walking_us"]}
 
 
-def once(fmi: int, duration_s: float | None = None) -> dict:
+def once(name: str, fmi: int, duration_s: float | None = None) -> dict:
     """One repetition: every figure."""
-    result = whole_run(fmi, duration_s)
-    loaded = scenario.load(SCENARIO)
+    result = whole_run(name, fmi, duration_s)
+    loaded = scenario.load(name)
     samples, overhead = walk(loaded, round(result["simulated_s"] * 1e6 / parameters.table().tick_us), fmi)
     result["tick_us"] = parameters.table().tick_us / result["real_time_factor"]
     result["split"] = split_of(result["loop"], result["tick_us"], samples, overhead)
     return result
 
 
-def run(repeat: int, fmi: int, duration_s: float | None, progress: Callable[[str], None]) -> dict:
+def run(name: str, repeat: int, fmi: int, duration_s: float | None, progress: Callable[[str], None]) -> dict:
     """All repetitions; the figures are their medians."""
+    scenario.load(name)  # a wrong name is told before the machine is taken
     runs = []
     with measure.one_core() as core:
         about = measure.machine(core)
         for number in range(repeat):
             progress(f"run {number + 1} of {repeat}")
-            runs.append(once(fmi, duration_s))
+            runs.append(once(name, fmi, duration_s))
     middle = measure.medians(runs)
     # medians of parts do not add up by themselves
     middle["split"]["rest"] += middle["tick_us"] - sum(middle["split"].values())
-    return {"machine": about, "fmi": fmi, "scenario": SCENARIO, **middle, "runs": runs}
+    return {"machine": about, "fmi": fmi, "scenario": name, **middle, "runs": runs}

@@ -63,14 +63,15 @@ def plant(
 
 @app.command()
 def run(
+    scenario: Annotated[str, typer.Option(metavar="SCENARIO", help="A name of `list`, or a .toml file.")] = "floor-walk",
     repeat: Repeat = 3,
     seconds: Annotated[
-        float | None, typer.Option(min=3.0, max=60.0, help="Simulated time; else all of floor-walk.")
+        float | None, typer.Option(min=3.0, max=60.0, help="Simulated time; else all of the scenario.")
     ] = None,
     fmi: Annotated[int, typer.Option(min=2, max=3, help="FMI version of the measured FMUs.")] = 3,
     json: Json = False,
 ) -> int:
-    """A whole run of floor-walk on one core: real-time factor, memory, and the parts of a tick.
+    """A whole run of a scenario on one core: real-time factor, memory, and the parts of a tick.
 
     Parts: the controller, the plant, the exchange through FMI (set, get and the step calls), the log, and the rest of
     the loop. The video is left out, the report with its snapshots is not.
@@ -78,7 +79,7 @@ def run(
     from hoap2.bench import chain, chain_shown
 
     with _status() as status:
-        document = chain.run(repeat, fmi, seconds, status)
+        document = chain.run(scenario, repeat, fmi, seconds, status)
     if json:
         print(json_module.dumps(document, indent=2))
     else:
