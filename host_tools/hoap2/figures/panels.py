@@ -91,7 +91,8 @@ def mark_fall(axes: Axes, walk: Walk, label: bool) -> None:
     if label:
         side = ((-3, -3), "right") if at > 0.85 * time_limits(walk)[1] else ((3, -3), "left")
         axes.annotate(f"fell, step {walk_fall_step(walk)}", (at, 1), side[0], xycoords=("data", "axes fraction"),
-                      textcoords="offset points", va="top", ha=side[1], fontsize=7.5)  # fmt: skip
+                      textcoords="offset points", va="top", ha=side[1], fontsize=7.5,
+                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6})  # fmt: skip
 
 
 def time_limits(walk: Walk) -> tuple[float, float]:
