@@ -5,12 +5,15 @@ from __future__ import annotations
 import ipaddress
 import os
 import socket
+from pathlib import Path
 from urllib.parse import urlsplit
 
 from hoap2.errors import UserError
 
 DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
 UDPM_PORT = 7667
+RECEIVE_BUFFER = 4_000_000  # bytes: a second of messages at full rate
+RECEIVE_LIMIT = Path("/proc/sys/net/core/rmem_max")
 PROVIDERS = ("udpm", "memq", "file", "tcpq", "mpudpm")
 
 
@@ -48,12 +51,24 @@ def _check_group(url: str) -> None:
                             "one process") from None  # fmt: skip
 
 
+def _with_room(url: str) -> str:
+    """The URL with the largest receive buffer that the system gives: a listener may have to wait for its turn."""
+    if not url.startswith(("udpm://", "mpudpm://")) or "recv_buf_size" in url:
+        return url
+    try:
+        size = min(RECEIVE_BUFFER, int(RECEIVE_LIMIT.read_text()))
+    except (OSError, ValueError):
+        return url
+    return f"{url}{'&' if '?' in url else '?'}recv_buf_size={size}"
+
+
 def connect(url: str | None):
     """A connection (lcm.LCM) to this URL."""
     import lcm
 
     url = url_or_default(url)
     check_url(url)
+    url = _with_room(url)
     try:
         return lcm.LCM(url)
     except RuntimeError as error:

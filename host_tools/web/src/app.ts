@@ -298,7 +298,7 @@ export class App {
     };
   }
 
-  pixels(): unknown {
+  pixels(): ReturnType<View3D['pixels']> | undefined {
     return this.view?.pixels();
   }
 }
