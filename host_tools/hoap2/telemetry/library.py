@@ -31,7 +31,8 @@ class Counts(ctypes.Structure):
     """hoap2_telemetry_counts_t"""
 
     _fields_ = [
-        (name, ctypes.c_int64) for name in ("logged", "published", "dropped", "decimated", "spent_ns", "sender_ns")
+        (name, ctypes.c_int64)
+        for name in ("logged", "published", "dropped", "decimated", "waiting", "spent_ns", "sender_ns")
     ]
 
 

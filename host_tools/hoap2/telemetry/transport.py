@@ -12,9 +12,9 @@ from hoap2.errors import UserError
 
 DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
 UDPM_PORT = 7667
-RECEIVE_BUFFER = 4_000_000  # bytes: a second of messages at full rate
-RECEIVE_LIMIT = Path("/proc/sys/net/core/rmem_max")
-PROVIDERS = ("udpm", "memq", "file", "tcpq", "mpudpm")
+PROVIDERS = ("udpm", "memq", "file")  # tcpq could make a run wait for its server
+ROOM_BYTES = 4_000_000  # a second of messages at full rate
+RMEM_MAX = Path("/proc/sys/net/core/rmem_max")
 
 
 def url_or_default(url: str | None) -> str:
@@ -28,7 +28,7 @@ def check_url(url: str) -> None:
     if not separator or provider not in PROVIDERS:
         raise UserError(f"not an LCM URL: {url!r}",
                         f"for example {DEFAULT_URL}, memq:// (one process) or file:///path/log.lcm?mode=w")  # fmt: skip
-    if provider in ("udpm", "mpudpm"):
+    if provider == "udpm":
         _check_group(url)
 
 
@@ -51,15 +51,15 @@ def _check_group(url: str) -> None:
                             "one process") from None  # fmt: skip
 
 
-def _with_room(url: str) -> str:
+def with_room(url: str) -> str:
     """The URL with the largest receive buffer that the system gives: a listener may have to wait for its turn."""
-    if not url.startswith(("udpm://", "mpudpm://")) or "recv_buf_size" in url:
+    if not url.startswith("udpm://") or "recv_buf_size" in url:
         return url
     try:
-        size = min(RECEIVE_BUFFER, int(RECEIVE_LIMIT.read_text()))
+        allowed = int(RMEM_MAX.read_text())
     except (OSError, ValueError):
         return url
-    return f"{url}{'&' if '?' in url else '?'}recv_buf_size={size}"
+    return f"{url}{'&' if '?' in url else '?'}recv_buf_size={min(ROOM_BYTES, allowed)}"
 
 
 def connect(url: str | None):
@@ -68,16 +68,12 @@ def connect(url: str | None):
 
     url = url_or_default(url)
     check_url(url)
-    url = _with_room(url)
+    url = with_room(url)
     try:
         return lcm.LCM(url)
     except RuntimeError as error:
         raise UserError(f"cannot open {url}: {error}", _hint(url)) from None
 
 
-def _hint(url: str) -> str | None:
-    if url.startswith("tcpq"):
-        return "tcpq needs a server that runs already"
-    if url.startswith("file"):
-        return "does its folder exist? to write: file:///path/log.lcm?mode=w"
-    return None
+def _hint(url: str) -> str:
+    return "does its folder exist? to write: file:///path/log.lcm?mode=w" if url.startswith("file") else ""

@@ -194,7 +194,8 @@ void Publisher::finish(bool ended) {
 }
 
 void Publisher::counts(hoap2_telemetry_counts_t *counts) const {
-  *counts = {log_.count(), live_.published(), live_.dropped(), decimated(), spent_ns_, live_.sender_ns()};
+  *counts = {log_.count(),    live_.published(), live_.dropped(),  decimated(),
+             live_.waiting(), spent_ns_,         live_.sender_ns()};
 }
 
 }  // namespace hoap2::telemetry

@@ -99,6 +99,7 @@ void Live::send(Channel &channel, std::uint8_t *data, int length, bool numbered)
 
 void Live::pass() {
   if (here_.items.empty()) return;
+  taken_ += static_cast<std::int64_t>(here_.items.size());
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (waiting_.bytes.size() + here_.bytes.size() <= kWaitingBytes) {

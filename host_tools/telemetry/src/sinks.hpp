@@ -73,6 +73,7 @@ class Live {
   lcm_t *connection() { return lcm_.get(); }
   std::int64_t published() const { return published_; }
   std::int64_t dropped() const { return dropped_; }
+  std::int64_t waiting() const { return taken_ - published_ - dropped_; }
   std::int64_t sender_ns() const { return sender_ns_; }
 
  private:
@@ -98,7 +99,7 @@ class Live {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool ends_ = false;  // under mutex_
-  std::atomic<std::int64_t> published_{0}, dropped_{0}, sender_ns_{0};
+  std::atomic<std::int64_t> taken_{0}, published_{0}, dropped_{0}, sender_ns_{0};
   std::thread thread_;
 };
 

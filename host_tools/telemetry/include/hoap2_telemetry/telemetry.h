@@ -43,6 +43,7 @@ typedef struct {
   int64_t published; /* sent live */
   int64_t dropped;   /* refused by the transport */
   int64_t decimated; /* left out of the live view */
+  int64_t waiting;   /* on their way to the transport */
   int64_t spent_ns;  /* wall clock of the calls */
   int64_t sender_ns; /* processor time of the thread that sends; known once finished */
 } hoap2_telemetry_counts_t;
