@@ -107,6 +107,15 @@ def test_strangers_are_counted_and_change_nothing(listener: Listener):
     assert len(listener.counters) < 30 and sum(c.foreign for c in listener.counters.values()) == 105
 
 
+def test_a_run_of_another_schema_is_told(listener: Listener):
+    message = run_message()
+    assert not listener.other_schema
+    for schema, other in ((message.SCHEMA_HASH, False), (message.SCHEMA_HASH + 1, True)):
+        message.schema_hash, message.sequence = schema, message.sequence + 1
+        send(listener, types.RUN, message)
+        assert listener.other_schema is other
+
+
 @pytest.mark.parametrize("url, said", [("udp://1.2.3.4", "not an LCM URL"), ("udpm://10.0.0.1:7667", "not a multicast"),
                                        ("udpm://239.255.76.67:x", "not an LCM URL"), ("7667", "not an L")])  # fmt: skip
 def test_a_wrong_url_is_named(url: str, said: str):

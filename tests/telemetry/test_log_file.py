@@ -102,6 +102,21 @@ def test_strangers_and_damaged_messages_are_counted(good, tmp_path: Path):
     assert [line.split(": ")[1][:2] for line in log.problems()] == ["1 ", "2 "]
 
 
+def test_a_run_of_another_schema_is_told(good, tmp_path: Path):
+    """The layout of the messages is the same, or they would be foreign; what their numbers mean may not be."""
+    path, out_type = tmp_path / "other.lcm", types.type_of(types.RUN)
+    out = lcm.EventLog(str(path), "w")
+    for schema in (out_type.SCHEMA_HASH, out_type.SCHEMA_HASH + 1):
+        message = out_type()
+        message.schema_hash = schema
+        out.write_event(0, types.RUN, message.encode())
+    out.close()
+    log = LogFile(path)
+    assert len(list(log)) == 2 and log.problems() == [
+        f"{path} is of a run with another table of signals: enums and faults may have other names"
+    ]
+
+
 @pytest.mark.parametrize("content", [b"PAR1 and so on", b"\x7fELF", b"a,b\n1,2\n"])
 def test_what_is_no_log_is_named(tmp_path: Path, content: bytes):
     path = tmp_path / "other.lcm"

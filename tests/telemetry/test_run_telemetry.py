@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +19,7 @@ from hoap2.errors import UserError
 from hoap2.generate import lcm_types
 from hoap2.generate.tables import MESSAGES
 from hoap2.signal_log import PREFIX, SignalLog
-from hoap2.telemetry import types
+from hoap2.telemetry import log_file, types
 from sides import FakeSide, falling_plant, standing_plant, stepping_controller
 
 
@@ -84,6 +89,8 @@ def test_a_fall_and_faults_are_told(tmp_path: Path):
     fall_tick = 100 + 393  # 45 deg at 2 rad/s
     assert (fall_tick, "fall", "fell at 0.493 s (chest tilt)") in events
     assert outcome.timing.ticks == fall_tick + 100
+    times = [time_us for time_us, _, _ in log]
+    assert times == sorted(times), "it stands where it was noticed, so that a player never goes back"
     assert [e for e in events if e[1] == "fault"] == [
         (20, "fault", "joint_limit"), (40, "fault", "bad_input"), (60, "fault", "cleared: bad_input")]  # fmt: skip
     assert events[-1][1:] == ("run_ended", "fell")
@@ -209,3 +216,39 @@ def test_a_run_folder_holds_its_log(hoap2_cli, tmp_path: Path):
 def test_a_study_is_not_live(hoap2_cli, tmp_path: Path):
     done = hoap2_cli("run", "floor-stand", "--seeds", "1-2", "--realtime", cwd=tmp_path)
     assert done.returncode == 2 and "a study is not live" in done.stderr and not (tmp_path / "out").exists()
+
+
+@contextlib.contextmanager
+def paced_run(folder: Path):
+    """A paced run that has begun to fill its log: the process, and the folder that it fills."""
+    command = [sys.executable, "-m", "hoap2.cli", "run", "floor-stand", "--realtime", "--lcm", "off", "--no-video",
+               "--duration", "60", "--out", "a"]  # fmt: skip
+    process = subprocess.Popen(command, cwd=folder, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    part = folder / "out" / "floor-stand"
+    give_up = time.monotonic() + 60
+    while time.monotonic() < give_up and not any(f.stat().st_size for f in part.glob(".a.part-*/telemetry.lcm")):
+        time.sleep(0.05)
+    try:
+        yield process, part
+    finally:
+        process.kill()
+        process.wait(timeout=60)
+
+
+def test_a_stopped_paced_run_leaves_a_whole_log(tmp_path: Path):
+    with paced_run(tmp_path) as (process, part):
+        process.send_signal(signal.SIGINT)
+        assert process.wait(timeout=60) == 130
+    log = rig.read(part / "a" / "telemetry.lcm")
+    assert rig.of(types.EVENT, log)[-1].text == "stopped" and rig.of(types.RUN, log)[-1].state == 2
+    states = rig.of(types.STATE, log)
+    assert [m.tick for m in states] == list(range(len(states))) and 10 < len(states) < 60_000
+
+
+def test_a_killed_run_leaves_a_log_that_can_be_read_up_to_there(tmp_path: Path):
+    with paced_run(tmp_path) as (process, part):
+        process.kill()
+    (path,) = part.glob(".a.part-*/telemetry.lcm")
+    signals, notes = log_file.read_signals(path)
+    assert signals.count > 10 and np.isfinite(signals.column("p.l_knee.q_enc_rad")).all()
+    assert notes == [] or "cut off in mid-message" in notes[0]

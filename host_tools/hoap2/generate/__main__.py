@@ -39,6 +39,7 @@ def _fmu_outputs(table: Table) -> dict[str, str]:
 def _telemetry_outputs(table: Table) -> dict[str, str]:
     folder = "host_tools/telemetry"
     out = {f"{folder}/types/generated/{name}": text for name, text in lcm_types.files(table).items()}
+    out["docs/generated/telemetry.md"] = lcm_types.page(table)
     return out | {f"{folder}/generated/places.hpp": lcm_types.places_header(table)}
 
 

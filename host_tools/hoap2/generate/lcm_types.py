@@ -188,3 +188,32 @@ def places_header(table: Table) -> str:
             out.append(f"    {{offsetof({of_type}, {field_name(s)}), {s.count}, {real}}},")
         out.append("};")
     return "\n".join([*out, "", "} // namespace hoap2::telemetry", "#endif"]) + "\n"
+
+
+RATES = {
+    "state_t": "1 kHz", "gait_t": "1 kHz", "truth_t": "100 Hz", "health_t": "100 Hz", "event_t": "when it happens",
+    "run_t": "at start and end; live also each second of the wall clock", "command_t": "when somebody asks",
+    "answer_t": "to each command",
+}  # fmt: skip
+
+
+def page(table: Table) -> str:
+    """docs/generated/telemetry.md: every message with its fields."""
+    out = ["# LCM messages", "", "Generated from `firmware/signals.toml`: do not edit. How they are used: "
+           "[telemetry.md](../telemetry.md).", "",
+           f"Package `{PACKAGE}`, schema {schema_hash(table)}. All but `command_t` begin with the same four fields:", ""]  # fmt: skip
+    out += _rows(HEADER)
+    for message in messages(table):
+        channel = f"HOAP2_{message.name.removesuffix('_t').upper()}"
+        common = message.fields[: len(HEADER)] == HEADER
+        out += [f"## `{channel}`: {message.name}, {RATES[message.name]}", "", message.text, ""]
+        out += _rows(message.fields[len(HEADER) :] if common else message.fields)
+        if message.constants:
+            words = [f"{name} = {value}" for _, name, value in message.constants if name != "SCHEMA_HASH"]
+            out += [f"Constants: {', '.join(words)}.", ""]
+    return "\n".join(out)
+
+
+def _rows(fields: tuple[Field, ...]) -> list[str]:
+    lines = ["| field | type | |", "|---|---|---|"]
+    return [*lines, *(f"| `{f.name}` | {f.kind}{''.join(f'[{n}]' for n in f.size)} | {f.text} |" for f in fields), ""]

@@ -122,6 +122,12 @@ class Listener:
         """Send a message."""
         self._lcm.publish(channel, message.encode())
 
+    @property
+    def other_schema(self) -> bool:
+        """Whether the last run told of was made with another table of signals: its words may mean something else."""
+        run = self.latest.get(types.RUN)
+        return run is not None and run.schema_hash != run.SCHEMA_HASH
+
     def close(self) -> None:
         """Stop listening."""
         for subscription in self._subscriptions:

@@ -49,6 +49,7 @@ class LogFile:
         self.last_us = 0
         self.cut_bytes = 0  # at the end: a message that was begun
         self.damaged_bytes = 0  # between messages
+        self.other_schema = False  # a run in it was made with another table of signals
         try:
             with path.open("rb") as file:
                 self._data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) if path.stat().st_size else b""
@@ -102,6 +103,9 @@ class LogFile:
         except types.Malformed:
             self.malformed[event.channel] += 1
             return
+        if event.channel == types.RUN:
+            run = types.decode(event.channel, event.data)
+            self.other_schema |= run.schema_hash != run.SCHEMA_HASH
         self.messages += 1
         self.last_us = event.time_us
         yield event
@@ -114,6 +118,8 @@ class LogFile:
                         f"({self.messages} messages), {self.cut_bytes} bytes left over")  # fmt: skip
         if self.damaged_bytes:
             said.append(f"{self.path}: {self.damaged_bytes} damaged bytes between messages were passed over")
+        if self.other_schema:
+            said.append(f"{self.path} is of a run with another table of signals: enums and faults may have other names")
         if self.malformed:
             said.append(f"{self.path}: {self.malformed.total()} damaged messages were passed over")
         if self.foreign:
