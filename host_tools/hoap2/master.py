@@ -104,8 +104,14 @@ class Outcome:
 class Commands(Protocol):
     """Whoever asks something of a run while it goes on."""
 
-    def poll(self, tick: int) -> None:
-        """Called between two batches of ticks, `tick` done: what is set on the products now, tick + 1 uses."""
+    def open(self, log: SignalLog) -> None:
+        """The rows that the run is going to fill."""
+
+    def poll(self, tick: int) -> int | None:
+        """Called between two batches of ticks, `tick` done: what is set on the products now, tick + 1 uses.
+
+        Returns the tick at which it must be called again at the latest, if there is one.
+        """
 
 
 @dataclass
@@ -126,6 +132,8 @@ def run(controller: Side, plant: Side, ticks: int, stop_after_fall_s: float, sto
     log = SignalLog(log_columns(controller, plant), ticks + 1)
     outcome = Outcome(log, Timing(ticks))
     fall = _FallWatch(log, stop_after_fall_s, company.telemetry)
+    if company.commands is not None:
+        company.commands.open(log)
     if company.telemetry is not None:
         company.telemetry.open(log, outcome.timing.ns["controller"], outcome.timing.ns["plant"])
     started = time.perf_counter()
@@ -160,14 +168,14 @@ def _run(loop: _Loop, ticks: int, fall: _FallWatch, stop: StopRequest, company: 
     if telemetry is not None:
         telemetry.rows()
     while done < last and stop.signal is None:
-        if commands is not None:
-            commands.poll(done)
+        due = None if commands is None else commands.poll(done)
         last = min(last, fall.last_tick(done))
         if progress is not None and now() >= next_progress:
             progress(loop.log)
             next_progress = now() + PROGRESS_PERIOD_NS
-        # an end that has passed already, by a fall seen late, is followed by one tick more
-        end = max(done + 1, min(last, done + batch))
+        # batches end on whole multiples; an end that has passed already, by a fall seen late, is followed by one tick more
+        end = min(last, done - done % batch + batch)
+        end = max(done + 1, end if due is None else min(end, due))
         loop.advance(done, end)
         done = end
         if pace is not None:

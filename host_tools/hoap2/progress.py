@@ -30,7 +30,8 @@ def robot_state(log: SignalLog, steps_planned: int) -> str:
     if mode == "walk":
         parts.append(word("phase", "phase"))
     if "c.step_index" in log and log.column("c.step_index")[-1] > 0:
-        parts.append(f"step {log.column('c.step_index')[-1]} of {steps_planned}")
+        of_all = f" of {steps_planned}" if steps_planned else ""
+        parts.append(f"step {log.column('c.step_index')[-1]}{of_all}")
     if "c.fault" in log and log.column("c.fault")[-1]:
         fault = int(log.column("c.fault")[-1])
         parts.append("FAULT " + "+".join(n for n, bit in parameters.table().faults.items() if fault & bit))

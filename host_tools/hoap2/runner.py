@@ -20,7 +20,7 @@ from hoap2.progress import PartProgress, RunProgress
 from hoap2.runfolder import RunFolder
 from hoap2.scenario import Scenario
 from hoap2.signal_log import SignalLog
-from hoap2.telemetry import options, run_telemetry
+from hoap2.telemetry import command_desk, options, run_telemetry
 
 EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 
@@ -123,7 +123,7 @@ def execute(scenario: Scenario, products: Products, folder: RunFolder, stop: mas
     clock, quiet = products.clock, wishes.quiet
     run_id = run_telemetry.new_run_id()
     run_toml = resolved_toml(scenario, products.files, run_id)
-    company = _company(scenario, wishes, folder, run_id, run_toml)
+    company = _company(scenario, products, wishes, folder, run_id, run_toml)
     clock.set_up_done()
     with clock.part("loop"):
         outcome = _simulate(scenario, products, stop, console, quiet, company)
@@ -132,6 +132,8 @@ def execute(scenario: Scenario, products: Products, folder: RunFolder, stop: mas
         outcome.log.write(folder.work / "signals.parquet")
     with clock.part("report"):
         summary = summarise(scenario, outcome) | {"notes": _notes(company)}
+        if company.commands is not None:
+            summary["commands"] = company.commands.record
     with clock.part("pictures"):
         pictures = _pictures(folder, scenario, outcome.log, wishes.video, console, quiet, stop, summary["notes"])
     summary |= {"peak_memory_mb": peak_memory_mb(), "wall_s": clock.summary()}
@@ -146,8 +148,9 @@ def execute(scenario: Scenario, products: Products, folder: RunFolder, stop: mas
     return runfolder.jsonable(summary) | {"folder": str(folder.finish())}
 
 
-def _company(scenario: Scenario, wishes: Wishes, folder: RunFolder, run_id: int, run_toml: str) -> master.Company:
-    """Telemetry and pace, as far as they are wanted."""
+def _company(scenario: Scenario, products: Products, wishes: Wishes, folder: RunFolder, run_id: int,
+             run_toml: str) -> master.Company:  # fmt: skip
+    """Telemetry, pace and commands, as far as they are wanted."""
     wanted = wishes.telemetry
     about = run_telemetry.About(run_id, scenario.name, scenario.title, scenario.seed, scenario.sensors,
                                 scenario.duration_s, run_toml, str(folder.path), wanted.accept_commands)  # fmt: skip
@@ -155,12 +158,16 @@ def _company(scenario: Scenario, wishes: Wishes, folder: RunFolder, run_id: int,
     company = master.Company(pace=Pace() if wanted.realtime else None)
     if log_path is not None or wanted.live_url is not None:
         company.telemetry = run_telemetry.RunTelemetry(about, log_path, wanted.live_url, company.pace)
+    if wanted.accept_commands:
+        company.commands = command_desk.listening(products, run_id, company.telemetry, scenario.values, wanted.live_url)
     return company
 
 
 def _notes(company: master.Company) -> list[str]:
     """What the user should know of a run that went on all the same."""
     notes = [] if company.telemetry is None else list(company.telemetry.notes)
+    if company.commands is not None:
+        notes += company.commands.notes()
     if company.pace is not None and company.pace.moved_s > 0.0:
         notes.append(f"not in real time: {company.pace.moved_s:.1f} s behind the wall clock at the end")
     return notes
@@ -192,6 +199,8 @@ def _simulate(scenario: Scenario, products: Products, stop: master.StopRequest, 
     finally:
         if progress is not None:
             progress.close()
+        if company.commands is not None:
+            company.commands.close()
 
 
 def _pictures(folder: RunFolder, scenario: Scenario, log: SignalLog, video: bool, console: Console, quiet: bool,

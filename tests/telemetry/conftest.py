@@ -15,9 +15,9 @@ LOOPBACK = 'ip link set lo up; {route} exec "$@"'
 ROUTE = "ip route add 224.0.0.0/4 dev lo;"
 
 
-@pytest.fixture
-def private_network():
-    """The command that runs another one in a network with nothing but loopback: private_network([...], route=True)."""
+@pytest.fixture(scope="session")
+def network_command():
+    """The command that runs another one in a network with nothing but loopback: network_command([...], route=True)."""
     unshare = ["unshare", "--net"] if subprocess.run(["id", "-u"], capture_output=True).stdout.strip() == b"0" else \
         ["unshare", "--map-root-user", "--net"]  # fmt: skip
     if not shutil.which("unshare") or not shutil.which("ip") or subprocess.run([*unshare, "true"]).returncode != 0:
@@ -28,3 +28,9 @@ def private_network():
         return [*unshare, "bash", "-c", script, "bash", *map(str, arguments)]
 
     return command
+
+
+@pytest.fixture
+def private_network(network_command):
+    """The same, for one test."""
+    return network_command

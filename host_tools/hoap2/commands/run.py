@@ -34,6 +34,9 @@ def command(
     telemetry: Annotated[
         bool, typer.Option("--telemetry/--no-telemetry", help="Write telemetry.lcm (2 MB a simulated second).")
     ] = True,
+    accept_commands: Annotated[
+        bool, typer.Option("--accept-commands", help="Let a monitor or `./hoap2 command` steer the run.")
+    ] = False,
     jobs: Annotated[int, typer.Option(min=1, max=256, help="Runs at a time of a study.")] = 2,
     json: Annotated[bool, typer.Option("--json", help="Print summary.json (study.json) on standard output.")] = False,
 ) -> int:
@@ -51,15 +54,15 @@ def command(
     from hoap2.products import Choice
     from hoap2.telemetry import options
 
-    wanted = options.Options(realtime, lcm, telemetry)
+    wanted = options.Options(realtime, lcm, telemetry, accept_commands)
     request = study.Request(scenario, tuple(overrides or ()), sensors, duration, Choice(controller, plant, fmi), video,
                             wanted)  # fmt: skip
     console = Console(stderr=True, highlight=False)
     if seeds is not None:
         if seed:
             raise UserError("give either --seed or --seeds, not both")
-        if realtime or lcm is not None:
-            raise UserError("a study is not live", "give --realtime and --lcm to single runs")
+        if realtime or lcm is not None or accept_commands:
+            raise UserError("a study is not live", "give --realtime, --lcm and --accept-commands to single runs")
         result = study.run_study(request, seeds_module.parse_range(seeds), out, jobs, console, show=not json)
         if json:
             print(json_module.dumps(result.document, indent=2, ensure_ascii=False))

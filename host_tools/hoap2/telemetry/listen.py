@@ -93,7 +93,7 @@ class Listener:
         self.latest = Latest()
         self.counters: dict[str, Counter] = {}
         self.last_s: dict[str, float] = {}  # channel -> time.monotonic() of its last good message
-        self._on_message = on_message
+        self.on_message = on_message
         self._handed_on = frozenset(types.CHANNELS if handed_on is None else handed_on)
         self._handled = 0
         types.bindings()
@@ -160,9 +160,9 @@ class Listener:
         except types.Malformed:
             counter.malformed += 1
             return
-        wanted = self._on_message is not None and channel in self._handed_on
+        wanted = self.on_message is not None and channel in self._handed_on
         message = types.decode(channel, data) if wanted else None
         self.latest.put(channel, data, message)
         self.last_s[channel] = time.monotonic()
         if wanted:
-            self._on_message(channel, message)
+            self.on_message(channel, message)

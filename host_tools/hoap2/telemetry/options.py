@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from hoap2.errors import UserError
 from hoap2.telemetry import transport
 
 OFF = "off"  # as --lcm: pace the run, publish nothing
@@ -29,3 +30,6 @@ class Options:
         """Raise UserError when it cannot be published there."""
         if self.live_url is not None:
             transport.check_url(self.live_url)
+        if self.accept_commands and not transport.hears(self.live_url):
+            raise UserError("commands need a connection on which others can be heard",
+                            "--accept-commands goes with --realtime, or with --lcm udpm://... or tcpq://...")  # fmt: skip

@@ -22,6 +22,11 @@ def url_or_default(url: str | None) -> str:
     return url or os.environ.get("LCM_DEFAULT_URL") or DEFAULT_URL
 
 
+def hears(url: str | None) -> bool:
+    """Can another process send something to this connection?"""
+    return url is not None and url.partition("://")[0] in ("udpm", "mpudpm", "tcpq")
+
+
 def check_url(url: str) -> None:
     """Raise UserError when no connection can be made with this URL, with what helps."""
     provider, separator, _ = url.partition("://")
