@@ -124,6 +124,9 @@ def test_live_without_pace_is_thinned_out_and_the_log_is_not(tmp_path: Path):
     class Ear:
         """Listens within the process, as commands would."""
 
+        def open(self, log) -> None:
+            pass
+
         def poll(self, tick: int) -> None:
             publisher = self.telemetry.publisher
             if tick == 0:
