@@ -13,10 +13,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from hoap2.bench.page import ARGUMENTS, CHROMIUM
 
-CHROMIUM = "/usr/bin/chromium"
-# WebGL by the processor: there is no graphics card to count on.
-ARGUMENTS = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
 CLI = [sys.executable, "-m", "hoap2.cli"]
 
 
@@ -149,7 +147,7 @@ class Page:
 def chromium(network: Network, tmp_path_factory: pytest.TempPathFactory) -> Iterator:
     """Debian's Chromium in the network."""
     playwright = pytest.importorskip("playwright.sync_api")
-    if not Path(CHROMIUM).exists():
+    if not CHROMIUM.exists():
         pytest.skip("no chromium here")
     program = tmp_path_factory.mktemp("browser") / "chromium"
     program.write_text(f'#!/bin/sh\nexec {" ".join(network.enter)} {CHROMIUM} "$@"\n')

@@ -109,3 +109,21 @@ def telemetry(
     else:
         telemetry_shown.show(document)
     return 0
+
+
+@app.command()
+def page(
+    seconds: Annotated[float, typer.Option(min=10.0, max=3600.0, help="How long it is watched, after a warm-up.")] = 60,
+    lcm: Annotated[str | None, typer.Option("--lcm", metavar="URL", help="LCM URL; else LCM_DEFAULT_URL.")] = None,
+    json: Json = False,
+) -> int:
+    """The web monitor's page beside a paced run in headless Chromium: pictures a second, memory, messages lost."""
+    from hoap2.bench import page as benchmark
+
+    with _status() as status:
+        document = benchmark.run(seconds, lcm, status)
+    if json:
+        print(json_module.dumps(document, indent=2))
+    else:
+        benchmark.show(document)
+    return 0

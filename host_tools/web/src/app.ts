@@ -18,8 +18,9 @@ import { heading, Stage } from './stage';
 import { FinishedRun, footprints, LiveRun, type Source } from './sources';
 import { toolbar } from './toolbar';
 
-const PLOT_MS = 66;
-const PANEL_MS = 200;
+const PLOT_MS = 70; // least between two drawings of a plot
+const PLOTS_A_PICTURE = 2;
+const PANEL_MS = 180;
 
 export class App {
   readonly player: Player;
@@ -39,7 +40,8 @@ export class App {
   private readonly drag: Drag | null;
   private readonly stage: Stage | null;
   private lastFrame_ms = 0;
-  private lastPlot_ms = 0;
+  private readonly plotted_ms: number[];
+  private turn = 0;
   private lastPanel_ms = 0;
   private frames: number[] = [];
   private wanted = 'live';
@@ -64,6 +66,7 @@ export class App {
     this.joints = new JointTable(model, () => this.charts.pickJoints());
     this.plane = new Plane(model);
     this.charts = new Charts(this.player, model, () => this.joints.picked);
+    this.plotted_ms = Array(this.charts.count + 1).fill(0);
     find('left').append(this.runs.element, this.commands.element);
     find('right').append(this.plane.element, ...this.charts.elements);
     find('below').append(this.joints.element, this.health.element, this.events.element);
@@ -225,27 +228,33 @@ export class App {
     const dt_s = Math.min(0.25, (now_ms - this.lastFrame_ms) / 1000);
     this.lastFrame_ms = now_ms;
     this.player.tick(dt_s);
+    this.timeline.update(this.source.steps, this.events.all);
     if (this.view) {
       this.stage?.update(this.source);
       if (this.view.draw(now_ms, dt_s)) this.frames.push(now_ms);
     }
-    if (now_ms - this.lastPlot_ms >= PLOT_MS) {
-      this.lastPlot_ms = now_ms;
-      this.plots();
-    }
+    this.plots(now_ms);
     if (now_ms - this.lastPanel_ms >= PANEL_MS) {
       this.lastPanel_ms = now_ms;
       this.panels(now_ms);
     }
   }
 
-  private plots(): void {
+  // A few of the plots in turn, so that no picture waits for all of them.
+  private plots(now_ms: number): void {
+    for (let i = 0; i < PLOTS_A_PICTURE; i++) {
+      if (now_ms - this.plotted_ms[this.turn] < PLOT_MS) return;
+      this.plotted_ms[this.turn] = now_ms;
+      if (this.turn < this.charts.count) this.charts.update(this.turn);
+      else this.drawPlane();
+      this.turn = (this.turn + 1) % this.plotted_ms.length;
+    }
+  }
+
+  private drawPlane(): void {
     const { track, time } = this.player;
-    this.charts.update();
-    const row = track.count ? track.find(time + 1e-9) : 0;
-    this.plane.update(track, time, track.count ? footprints(this.source, row) : [], this.yaw());
-    this.joints.update(track, row);
-    this.timeline.update(this.source.steps, this.events.all);
+    const prints = track.count ? footprints(this.source, track.find(time + 1e-9)) : [];
+    this.plane.update(track, time, prints, this.yaw());
   }
 
   private panels(now_ms: number): void {
@@ -270,11 +279,10 @@ export class App {
     if (source instanceof FinishedRun) this.health.finished(source.id, source.summary, track.value(row, 'fault'));
     else this.health.live(status);
     if (!source.live || !this.player.playing) this.events.at(time);
+    this.joints.update(track, row);
     const why = this.why();
     this.commands.enable(why === '', why);
-    this.commands.setHeading(
-      track.count ? heading(track.values(row, 'true_base_quat_W')) : this.yaw(),
-    );
+    this.commands.setHeading(track.count ? heading(track.values(row, 'true_base_quat_W')) : this.yaw());
     this.runs.setLive(status, this.live.document?.scenario ?? '');
   }
 
@@ -294,6 +302,7 @@ export class App {
       live: this.source.live,
       run: this.source.id,
       steps: this.source.steps.length,
+      lost: Object.values(this.status?.counters ?? {}).reduce((sum, counter) => sum + counter.lost, 0),
       dragging: this.drag !== null,
     };
   }

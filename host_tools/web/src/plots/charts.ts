@@ -53,6 +53,10 @@ export class Charts {
     return this.charts.map((chart) => chart.element);
   }
 
+  get count(): number {
+    return this.charts.length;
+  }
+
   get updates(): number[] {
     return this.charts.map((chart) => chart.updates);
   }
@@ -83,7 +87,8 @@ export class Charts {
     );
   }
 
-  update(): void {
+  // One of the plots, brought up to the shown time.
+  update(number: number): void {
     const { track, time, live } = this.player;
     const span = this.spanOf[this.kind];
     if (document.activeElement !== this.spans) this.spans.value = String(span);
@@ -91,6 +96,6 @@ export class Charts {
     const end = live ? Math.max(time, track.first + span) : Math.min(track.last, time + AHEAD * span);
     const to = span === 0 ? track.last : end;
     const from = span === 0 ? track.first : to - span;
-    for (const chart of this.charts) chart.update(track, from, Math.max(to, from + LEAST_S));
+    this.charts[number].update(track, from, Math.max(to, from + LEAST_S));
   }
 }
