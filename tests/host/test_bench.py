@@ -200,7 +200,7 @@ def test_table_and_picture(cases: dict[str, plant.Case], tmp_path: Path, capsys)
 
 def test_bench_alone_shows_both(hoap2_cli):
     done = hoap2_cli("bench")
-    assert "run" in done.stdout and "plant" in done.stdout and "floor-walk" in done.stdout
+    assert "run" in done.stdout and "plant" in done.stdout and "whole run" in done.stdout
 
 
 @pytest.mark.slow
