@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hoap2 import recording, soil_replay
 from hoap2.errors import UserError
-from hoap2.monitor import live, track
+from hoap2.monitor import live, live_run, track
 from hoap2.telemetry import types
 
 from test_track import unpack
@@ -107,7 +107,7 @@ def test_a_page_that_comes_late_is_told_the_same(messages) -> None:
         wanted[arrays["cells"]] = arrays["heights"]
     np.testing.assert_array_equal(height, wanted)
     sent = np.concatenate([arrays["t_s"] for _, arrays in fed.blocks("rows")])
-    np.testing.assert_array_equal(hello[3][1]["t_s"], sent[-live.BACKLOG_ROWS :])
+    np.testing.assert_array_equal(hello[3][1]["t_s"], sent[-live_run.BACKLOG_ROWS :])
     json.dumps([b for b in hello if isinstance(b, dict)], allow_nan=False)
 
 
@@ -131,6 +131,15 @@ def test_another_run_takes_over_only_when_the_first_is_over(messages) -> None:
     assert fed.hub.status()["state"] == "silent"
     fed.feed(types.TRUTH, truths[2][:8] + other + truths[2][16:])
     assert fed.hub._run.run_id == 4242 and fed.hub.status()["state"] == "live"
+
+
+def test_a_run_that_is_played_again_starts_afresh(messages) -> None:
+    fed = _play(messages, Fed())
+    first = fed.hub._run
+    _play(messages, fed)
+    assert first.ended and fed.hub._run.run_id == first.run_id and fed.hub._run.key != first.key
+    assert [s["number"] for s in fed.hub._run.steps] == [s["number"] for s in first.steps]
+    assert len({b[0]["run_id"] for b in fed.blocks("rows")}) == 2
 
 
 def test_a_command_without_an_answer_is_told(messages, monkeypatch) -> None:

@@ -8,40 +8,22 @@ from __future__ import annotations
 import random
 import threading
 import time
-import tomllib
-from collections import deque
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
 
 import numpy as np
 
 from hoap2.errors import UserError
 from hoap2.monitor import track
+from hoap2.monitor.live_run import LiveRun, feet, rows_block, toml
 from hoap2.monitor.live_soil import LiveSoil
 from hoap2.telemetry import types
 from hoap2.telemetry.listen import Listener
 
-BACKLOG_ROWS = 3000  # at 100 Hz half a minute
-EVENTS = 300
 SILENT_S = 1.0  # without a message this long a run that has not ended is called silent
 ANSWER_S = 2.0
 RETRY_S = 3.0
 HANDED_ON = (types.TRUTH, types.HEALTH, types.EVENT, types.RUN, types.ANSWER)
-
-
-@dataclass
-class LiveRun:
-    """What is known of the run that is followed."""
-
-    run_id: int
-    document: dict | None = None  # of its run_t
-    rows: deque = field(default_factory=lambda: deque(maxlen=BACKLOG_ROWS))
-    events: deque = field(default_factory=lambda: deque(maxlen=EVENTS))
-    steps: list[dict] = field(default_factory=list)
-    step: dict | None = None  # under way
-    start_feet: list[dict] = field(default_factory=list)
-    soil: LiveSoil | None = None
-    ended: bool = False
 
 
 class LiveHub:
@@ -59,6 +41,7 @@ class LiveHub:
         self._heard_s = 0.0
         self._new_rows: list[tuple[float, np.ndarray]] = []
         self._pending: dict[int, tuple[float, dict]] = {}
+        self._followed = 0  # runs so far
         self._next_id = random.getrandbits(40) << 20
         self.problem = ""
         self._places = _places()
@@ -81,11 +64,11 @@ class LiveHub:
             blocks: list[dict | bytes] = [self.status()]
             if run is None:
                 return blocks
-            blocks.append(self._run_block(run))
+            blocks += [self._run_block(run), *run.answers]
             if run.soil is not None:
                 blocks.append(run.soil.whole())
             if run.rows:
-                blocks.append(_rows_block(list(run.rows), run.run_id))
+                blocks.append(rows_block(list(run.rows), run.key))
             return blocks
 
     def status(self) -> dict:
@@ -101,7 +84,7 @@ class LiveHub:
             return {
                 "kind": "status", "state": state, "problem": self.problem, "silent_s": silent_s if run else None,
                 "url": self._listener.url if self._listener else self._url, "health": self._health(),
-                "counters": self._counters(), "run_id": str(run.run_id) if run else None,
+                "counters": self._counters(), "run_id": run.key if run else None,
             }  # fmt: skip
 
     def command(self, kind: str, name: str, value: list[float], sender: str) -> dict:
@@ -152,7 +135,7 @@ class LiveHub:
     def _flush(self) -> None:
         run = self._run
         if self._new_rows and run is not None:
-            self._send(_rows_block(self._new_rows, run.run_id))
+            self._send(rows_block(self._new_rows, run.key))
             self._new_rows = []
             if run.soil is not None and (block := run.soil.changes()) is not None:
                 self._send(block)
@@ -173,13 +156,15 @@ class LiveHub:
     def _is_followed(self, channel: str, message) -> bool:
         """Whether the message is of the run that the pages show; a new run takes over from one that is over."""
         run = self._run
-        if run is not None and run.run_id == message.run_id:
+        again = run is not None and run.ended and channel == types.RUN and message.state == message.RUNNING
+        if run is not None and run.run_id == message.run_id and not again:
             return True
         if run is not None and not run.ended and time.monotonic() - self._heard_s < SILENT_S:
             return False
         if channel == types.ANSWER:
             return False
-        self._run = LiveRun(message.run_id)
+        self._followed += 1
+        self._run = LiveRun(message.run_id, f"{message.run_id}-{self._followed}")
         self._new_rows = []
         self._send(self._run_block(self._run))
         return True
@@ -188,7 +173,7 @@ class LiveHub:
         run.ended = run.ended or message.state == message.ENDED
         if run.document is not None:
             return
-        values = _toml(message.run_toml)
+        values = toml(message.run_toml)
         plant = values.get("plant", {})
         run.document = {
             "scenario": message.scenario, "title": message.title, "seed": message.seed, "sensors": message.sensors,
@@ -205,7 +190,7 @@ class LiveHub:
 
     def _run_block(self, run: LiveRun) -> dict:
         return {
-            "kind": "run", "run_id": str(run.run_id), "document": run.document, "steps": list(run.steps),
+            "kind": "run", "run_id": run.key, "document": run.document, "steps": list(run.steps),
             "start_feet": run.start_feet, "events": list(run.events), "ended": run.ended,
         }  # fmt: skip
 
@@ -222,11 +207,13 @@ class LiveHub:
 
     def _answer(self, run: LiveRun, message) -> None:
         _, sent = self._pending.pop(message.command_id, (0.0, None))
-        self._send({
+        answer = {
             "kind": "answer", "command_id": str(message.command_id), "accepted": bool(message.accepted),
             "reason": message.reason, "command": message.kind, "name": message.name, "value": list(message.value),
             "own": sent is not None, "t_s": message.time_us / 1e6,
-        })  # fmt: skip
+        }  # fmt: skip
+        run.answers.append(answer)
+        self._send(answer)
 
     def _truth(self, run: LiveRun, message) -> None:
         row = np.full(track.width(), np.nan, dtype=np.float32)
@@ -242,26 +229,13 @@ class LiveHub:
         run.rows.append((t_s, row))
         self._new_rows.append((t_s, row))
         if not run.start_feet:
-            run.start_feet = _feet(message)
+            run.start_feet = feet(message)
             self._send({"kind": "start_feet", "start_feet": run.start_feet})
         if types.GAIT in sources:
-            self._note_step(run, t_s, sources[types.GAIT])
+            if (step := run.note_step(t_s, sources[types.GAIT])) is not None:
+                self._send({"kind": "step", "step": step})
         if run.soil is not None:
             run.soil.move(message)
-
-    def _note_step(self, run: LiveRun, t_s: float, gait) -> None:
-        """Keep where each finished step landed."""
-        step, index = run.step, gait.step_index
-        if step is not None and step["number"] != index:
-            run.steps.append(step)
-            self._send({"kind": "step", "step": step})
-            run.step = step = None
-        if index > 0:
-            step = step or {"number": index, "first_s": t_s, "left": False}
-            if gait.stance_foot in (0, 1):
-                step["left"] = gait.stance_foot == 0
-            x, y, yaw = gait.footprint_W_m_rad
-            run.step = step | {"last_s": t_s, "x": x, "y": y, "yaw": yaw}
 
     def _health(self) -> dict | None:
         message = self._listener.latest.get(types.HEALTH) if self._listener else None
@@ -284,20 +258,3 @@ def _places() -> list[tuple[track.Entry, str]]:
     samples = {channel: types.type_of(channel)() for channel in (types.TRUTH, types.GAIT, types.STATE)}
     return [(entry, next(channel for channel, message in samples.items() if hasattr(message, entry.name)))
             for entry in track.layout()]  # fmt: skip
-
-
-def _rows_block(rows: list[tuple[float, np.ndarray]], run_id: int) -> bytes:
-    return track.pack({"kind": "rows", "run_id": str(run_id)},
-                      {"t_s": np.array([t for t, _ in rows]), "rows": np.array([row for _, row in rows])})  # fmt: skip
-
-
-def _feet(message) -> list[dict]:
-    return [{"x": p[0], "y": p[1], "yaw": yaw, "left": bool(foot)}
-            for foot, (p, yaw) in enumerate(zip(message.true_foot_pos_W_m, message.true_foot_yaw_W_rad))]  # fmt: skip
-
-
-def _toml(text: str) -> dict:
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError:
-        return {}

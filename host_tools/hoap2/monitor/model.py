@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from hoap2 import parameters, renderer
-from hoap2.generate.tables import PRODUCTS
+from hoap2.generate.tables import Signal
 from hoap2.monitor import track
+from hoap2.telemetry import command_kinds
 
-# What the command `step` can set, and the parameter whose range it has.
-STEP_VALUES = {"length_m": "step_length_m", "sideways_m": "step_sideways_m", "turn_rad": "step_turn_rad"}
+# What the command `step` can set, and the parameter that a run starts with.
+STEP_STARTS = {"length_m": "step_length_m", "sideways_m": "step_sideways_m", "turn_rad": "step_turn_rad"}
 
 
 def document() -> dict:
@@ -31,10 +32,10 @@ def document() -> dict:
         "layout": track.layout_json(),
         "enums": table.enums,
         "faults": [{"name": n, "bit": bit, "text": table.fault_texts[n]} for n, bit in table.faults.items()],
-        "tunable": [_parameter(product, signal) for product in PRODUCTS
-                    for signal in parameters.known(product).values() if signal.tunable],
-        "step": {name: _parameter("controller", parameters.known("controller")[source])
-                 for name, source in STEP_VALUES.items()},
+        "tunable": [range_ for signal in command_kinds.tunables().values() for range_ in _elements(signal)],
+        "step": {name: _range(STEP_STARTS[name], parameters.known("controller")[STEP_STARTS[name]].default[0], signal)
+                 for name, signal in command_kinds.step_ranges().items()},
+        "push": {"most_N": command_kinds.most_push_N(), "longest_s": command_kinds.LONGEST_PUSH_S},
     }  # fmt: skip
 
 
@@ -47,11 +48,15 @@ def _joint(joint: dict, links: list[str]) -> dict:
     }  # fmt: skip
 
 
-def _parameter(product: str, signal) -> dict:
-    return {
-        "product": product, "name": signal.name, "unit": signal.unit, "low": signal.low, "high": signal.high,
-        "count": signal.count, "default": list(signal.default), "text": signal.text,
-    }  # fmt: skip
+def _elements(signal: Signal) -> list[dict]:
+    """Each number of a parameter by itself: `lpc_gain.x`."""
+    names = parameters.table().element_names(signal)
+    return [_range(name, default, signal) for name, default in zip(names, signal.default)]
+
+
+def _range(name: str, default: float, signal: Signal) -> dict:
+    return {"name": name, "unit": signal.unit, "low": signal.low, "high": signal.high, "default": default,
+            "text": signal.text}  # fmt: skip
 
 
 def mesh(coarse: bool) -> bytes:

@@ -1,7 +1,7 @@
 // Puts the page together and keeps it up to date.
 import { Connection } from './connection';
 import { find, setText, toast } from './dom';
-import { Commands, MAX_PUSH_N } from './panels/commands';
+import { Commands } from './panels/commands';
 import { EventList } from './panels/events';
 import { HealthPanel } from './panels/health';
 import { RunList } from './panels/runs';
@@ -212,7 +212,7 @@ export class App {
       camera: view.camera.camera,
       grip: () => view.robot.grip,
       allowed: () => this.commands.enabled,
-      limit_N: () => MAX_PUSH_N,
+      limit_N: () => this.commands.drag_N,
       hold: (held) => (view.camera.controls.enabled = !held),
       redraw: () => view.invalidate(),
       push: (force) => this.commands.pushBy(force),

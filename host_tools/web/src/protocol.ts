@@ -44,13 +44,11 @@ export interface Joint {
 }
 
 export interface Parameter {
-  product: string;
   name: string;
   unit: string;
   low: number;
   high: number;
-  count: number;
-  default: number[];
+  default: number;
   text: string;
 }
 
@@ -70,6 +68,7 @@ export interface Model {
   enums: Record<string, string[]>;
   faults: { name: string; bit: number; text: string }[];
   tunable: Parameter[];
+  push: { most_N: number; longest_s: number };
   step: Record<'length_m' | 'sideways_m' | 'turn_rad', Parameter>;
 }
 

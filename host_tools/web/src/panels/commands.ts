@@ -1,9 +1,10 @@
 // Commands to a live run: walking, steps, pushes, tunable parameters; and what the run answered.
 import { DEG, el, fixed, setText } from '../dom';
 import type { Answer, Model, Parameter } from '../protocol';
+import { Slider } from './slider';
 
 const MAX_ANSWERS = 60;
-export const MAX_PUSH_N = 40;
+const DRAG_MOST_N = 60;
 const DIRECTIONS: [string, string, number][] = [
   // label, name, heading (deg, left positive)
   ['↖', 'ahead left', 45],
@@ -19,32 +20,15 @@ const DIRECTIONS: [string, string, number][] = [
 
 export type Send = (command: string, name: string, value: number[]) => void;
 
-interface Slider {
-  row: HTMLElement;
-  set: (value: number) => void;
-}
-
 export class Commands {
   readonly element: HTMLElement;
   private readonly why = el('p', { class: 'why', id: 'commands-why' });
   private readonly body = el('div', { class: 'command-body' });
   private readonly answers = el('div', { class: 'answers', id: 'answers' });
-  private readonly force = el('input', {
-    type: 'number',
-    id: 'push-force',
-    value: '8',
-    min: '0.5',
-    max: MAX_PUSH_N,
-    step: '0.5',
-  });
-  private readonly duration = el('input', {
-    type: 'number',
-    id: 'push-duration',
-    value: '0.1',
-    min: '0.02',
-    max: '2',
-    step: '0.02',
-  });
+  private readonly force: HTMLInputElement;
+  private readonly duration: HTMLInputElement;
+  private readonly limits: Model['push'];
+  private readonly told = new Set<string>(); // answers shown
   private readonly sliders = new Map<string, Slider>();
   private yaw = 0;
   enabled = false;
@@ -53,6 +37,11 @@ export class Commands {
     model: Model,
     private readonly send: Send,
   ) {
+    const { most_N, longest_s } = (this.limits = model.push);
+    const number = (id: string, value: number, min: number, max: number): HTMLInputElement =>
+      el('input', { type: 'number', id, value, min, max, step: min });
+    this.force = number('push-force', 8, 0.5, most_N);
+    this.duration = number('push-duration', 0.1, 0.02, longest_s);
     this.body.append(this.walking(model), this.pushing(), this.tuning(model));
     this.element = el(
       'section',
@@ -67,7 +56,11 @@ export class Commands {
   }
 
   get push_s(): number {
-    return Math.min(2, Math.max(0.02, Number(this.duration.value) || 0.1));
+    return Math.min(this.limits.longest_s, Math.max(0.02, Number(this.duration.value) || 0.1));
+  }
+
+  get drag_N(): number {
+    return Math.min(DRAG_MOST_N, this.limits.most_N);
   }
 
   setHeading(yaw_rad: number): void {
@@ -84,8 +77,14 @@ export class Commands {
 
   // What the run starts from.
   setValues(controller: Record<string, unknown>): void {
-    for (const [name, slider] of this.sliders) {
-      const value = controller[name];
+    const numbers = new Map<string, unknown>();
+    for (const [name, value] of Object.entries(controller)) {
+      if (!Array.isArray(value)) numbers.set(name, value);
+      else value.forEach((element, i) => numbers.set(`${name}.${'xyz'[i]}`, element));
+    }
+    for (const [key, slider] of this.sliders) {
+      const [kind, name] = key.split(' ');
+      const value = numbers.get(kind === 'step' ? `step_${name}` : name);
       if (typeof value === 'number') slider.set(value);
     }
   }
@@ -103,9 +102,9 @@ export class Commands {
       { class: 'group' },
       el('div', { class: 'two' }, start, stop),
       el('div', { class: 'sub-title' }, 'Each step'),
-      this.slider('length', length_m, 1000, 'mm', 1, (value) => this.send('step', 'length_m', [value])),
-      this.slider('sideways', sideways_m, 1000, 'mm', 1, (value) => this.send('step', 'sideways_m', [value])),
-      this.slider('turn', turn_rad, DEG, 'deg', 1, (value) => this.send('step', 'turn_rad', [value])),
+      this.slider('step', 'length_m', length_m, 'length'),
+      this.slider('step', 'sideways_m', sideways_m, 'sideways'),
+      this.slider('step', 'turn_rad', turn_rad, 'turn'),
     );
   }
 
@@ -139,7 +138,7 @@ export class Commands {
   }
 
   private push(heading_deg: number): void {
-    const force = Math.min(MAX_PUSH_N, Math.max(0, Number(this.force.value) || 0));
+    const force = Math.min(this.limits.most_N, Math.max(0, Number(this.force.value) || 0));
     const angle = this.yaw + heading_deg / DEG;
     this.pushBy([force * Math.cos(angle), force * Math.sin(angle)]);
   }
@@ -149,15 +148,7 @@ export class Commands {
   }
 
   private tuning(model: Model): HTMLElement {
-    const rows = model.tunable
-      .filter((parameter) => parameter.count === 1)
-      .map((parameter) => {
-        const name = parameter.name.replace(/_(1_s2|1_s|m|s|rad|N|Nm)$/, '').replaceAll('_', ' ');
-        const unit = parameter.unit === '1' ? '' : parameter.unit.replace('s2', 's²');
-        return this.slider(name, parameter, 1, unit, parameter.high > 10 ? 1 : 3, (value) =>
-          this.send('set', parameter.name, [value]),
-        );
-      });
+    const rows = model.tunable.map((parameter) => this.slider('set', parameter.name, parameter));
     return el(
       'details',
       { class: 'group', open: true },
@@ -166,48 +157,21 @@ export class Commands {
     );
   }
 
-  private slider(
-    label: string,
-    parameter: Parameter,
-    scale: number,
-    unit: string,
-    digits: number,
-    send: (value: number) => void,
-  ): HTMLElement {
-    const shown = el('b', {});
-    const input = el('input', {
-      type: 'range',
-      min: parameter.low * scale,
-      max: parameter.high * scale,
-      step: 10 ** -digits,
-      value: parameter.default[0] * scale,
-      'data-parameter': parameter.name,
-    });
-    const tell = (): void => setText(shown, `${fixed(Number(input.value), digits)} ${unit}`);
-    input.addEventListener('input', tell);
-    input.addEventListener('change', () => {
-      send(Math.min(parameter.high, Math.max(parameter.low, Number(input.value) / scale)));
-    });
-    tell();
-    const range = `${fixed(parameter.low * scale, digits)} to ${fixed(parameter.high * scale, digits)} ${unit}`;
-    const row = el(
-      'label',
-      { class: 'slider', title: `${parameter.text}; ${range}` },
-      el('span', {}, label),
-      input,
-      shown,
-    );
-    this.sliders.set(parameter.name, {
-      row,
-      set: (value) => {
-        if (document.activeElement !== input) input.value = String(value * scale);
-        tell();
-      },
-    });
-    return row;
+  private slider(kind: string, name: string, parameter: Parameter, label?: string): HTMLElement {
+    const slider = new Slider(parameter, (value) => this.send(kind, name, [value]), label);
+    this.sliders.set(`${kind} ${name}`, slider);
+    return slider.element;
   }
 
   answer(answer: Answer): void {
+    if (answer.command_id !== undefined) {
+      if (this.told.has(answer.command_id)) return; // told again after the connection was lost
+      this.told.add(answer.command_id);
+      if (this.told.size > 4 * MAX_ANSWERS) this.told.delete(this.told.values().next().value!);
+    }
+    const slider = this.sliders.get(`${answer.command} ${answer.name}`);
+    if (answer.accepted && answer.value.length === 1) slider?.set(answer.value[0]);
+    else if (answer.own) slider?.back();
     const value = answer.value.map((v) => Number(v.toFixed(4))).join(', ');
     const what = [answer.command, answer.name, value].filter(Boolean).join(' ');
     const line = el(
