@@ -57,7 +57,7 @@ export class EventList {
       { class: `event event-${event.event}`, onclick: () => this.onSeek(event.t_s) },
       el('em', {}, `${fixed(event.t_s, 2)}`),
       el('i', {}, event.event.replaceAll('_', ' ')),
-      el('span', {}, event.text),
+      el('span', {}, event.text.replace(`${event.event} `, '')),
     );
   }
 }

@@ -49,19 +49,20 @@ export class HealthPanel {
           ['controller tick', `${fixed(health.controller_us, 1)} µs, max ${fixed(health.controller_max_us, 0)}`],
           ['plant tick', `${fixed(health.plant_us, 1)} µs, max ${fixed(health.plant_max_us, 0)}`],
           ['telemetry', `${fixed(health.telemetry_us, 1)} µs a tick`],
-          ['pace', health.paced ? `real time, ${fixed(health.lag_us / 1000, 1)} ms late` : 'as fast as it goes'],
+          ['pace', health.paced ? `paced, ${fixed(health.lag_us / 1000, 1)} ms late` : 'as fast as it goes'],
           ['overruns', String(health.overruns), health.overruns > 0],
           ['faults', this.faults(health.fault), health.fault !== 0],
           ['sent, dropped', `${health.published}, ${health.dropped}`, health.dropped > 0],
         ]
       : [];
     const counters = Object.entries(status?.counters ?? {});
+    if (counters.length)
+      rows.push(['received', String(counters.reduce((sum, [, counter]) => sum + counter.received, 0))]);
     for (const [name, counter] of counters) {
-      const parts = [`${counter.received}`];
-      for (const kind of ['lost', 'replayed', 'malformed', 'foreign'] as const) {
-        if (counter[kind]) parts.push(`${counter[kind]} ${kind}`);
-      }
-      rows.push([name.replace('HOAP2_', '').toLowerCase(), parts.join(', '), parts.length > 1]);
+      const parts = (['lost', 'replayed', 'malformed', 'foreign'] as const)
+        .filter((kind) => counter[kind])
+        .map((kind) => `${counter[kind]} ${kind}`);
+      if (parts.length) rows.push([name.replace('HOAP2_', '').toLowerCase(), parts.join(', '), true]);
     }
     if (rows.length === 0) rows.push(['run', 'none yet']);
     if (status?.url) rows.push(['from', status.url]);

@@ -1,11 +1,10 @@
 // A push by the mouse: take hold of the trunk, draw, let go. The force lies along the ground.
 import * as THREE from 'three';
 import { PUSH } from './colours';
-import { Arrow } from './marks';
+import { Arrow, PUSH_M_PER_N } from './marks';
 
 const N_PER_PX = 0.12;
 const LEAST_PX = 8;
-const M_PER_N = 0.008;
 
 export interface DragTarget {
   canvas: HTMLElement;
@@ -19,7 +18,7 @@ export interface DragTarget {
 }
 
 export class Drag {
-  readonly arrow = new Arrow(PUSH, 0.0042);
+  readonly arrow = new Arrow(PUSH, 0.0042, true);
   private from: { x: number; y: number; pointer: number } | null = null;
   private readonly force = new THREE.Vector3();
   private readonly caster = new THREE.Raycaster();
@@ -98,7 +97,7 @@ export class Drag {
       .grip()!
       .getWorldPosition(new THREE.Vector3())
       .add(new THREE.Vector3(0, 0, 0.07));
-    this.arrow.set(at, this.force.clone().multiplyScalar(M_PER_N));
+    this.arrow.set(at, this.force.clone().multiplyScalar(PUSH_M_PER_N));
     const box = this.target.canvas.getBoundingClientRect();
     this.label.textContent = `${this.force.length().toFixed(1)} N · Esc cancels`;
     this.label.style.display = 'block';

@@ -7,7 +7,8 @@ const MAX_PRINTS = 400;
 const TRAIL = 600;
 const LIFT_M = 0.0008;
 const M_PER_N = 0.0016;
-const PUSH_M_PER_N = 0.008;
+export const PUSH_M_PER_N = 0.012;
+const PUSH_LEAST_M = 0.13; // long enough to stand out of the trunk
 const CORNER_M = 0.012;
 const OUTLINE_M = 0.0022;
 
@@ -81,8 +82,15 @@ export class Arrow {
   private readonly tip: THREE.Mesh;
   private static readonly up = new THREE.Vector3(0, 0, 1);
 
-  constructor(colour: string, radius_m: number) {
-    const material = new THREE.MeshLambertMaterial({ color: colour, emissive: colour, emissiveIntensity: 0.45 });
+  // through: seen through the robot
+  constructor(colour: string, radius_m: number, through = false) {
+    const material = new THREE.MeshLambertMaterial({
+      color: colour,
+      emissive: colour,
+      emissiveIntensity: 0.45,
+      depthTest: !through,
+      transparent: through,
+    });
     this.shaft = new THREE.Mesh(new THREE.CylinderGeometry(radius_m, radius_m, 1, 10).rotateX(Math.PI / 2), material);
     this.tip = new THREE.Mesh(
       new THREE.ConeGeometry(2.6 * radius_m, 6.5 * radius_m, 14).rotateX(Math.PI / 2),
@@ -90,6 +98,7 @@ export class Arrow {
     );
     this.group.add(this.shaft, this.tip);
     this.tipLength = 6.5 * radius_m;
+    this.shaft.renderOrder = this.tip.renderOrder = through ? 9 : 0;
     this.group.visible = false;
   }
 
@@ -150,7 +159,7 @@ export class Marks {
   private readonly right: Prints;
   private readonly left: Prints;
   private readonly footForce = [new Arrow(RIGHT, 0.0022), new Arrow(LEFT, 0.0022)];
-  private readonly push = new Arrow(PUSH, 0.0042);
+  private readonly push = new Arrow(PUSH, 0.0042, true);
   private readonly trail = new THREE.Line(
     new THREE.BufferGeometry(),
     new THREE.LineBasicMaterial({ color: COM, transparent: true, opacity: 0.75, fog: false }),
@@ -196,6 +205,7 @@ export class Marks {
       this.footForce[foot].set(this.a, this.b.multiplyScalar(M_PER_N));
     }
     this.b.set(values.push[0], values.push[1], values.push[2]).multiplyScalar(PUSH_M_PER_N);
+    if (this.b.length() > 1e-4) this.b.setLength(Math.max(PUSH_LEAST_M, this.b.length()));
     // the arrow ends where it pushes
     this.push.set(this.a.copy(values.pushPoint).sub(this.b), this.b);
   }
