@@ -31,7 +31,7 @@ def paced(private_network, folder: Path, seconds: float, *options: str) -> dict:
 
 
 def paced_in_peace(private_network, folder: Path, seconds: float, *options: str) -> dict:
-    """The same; where lcm-logger cannot be put before everything else (see paced_run.go_first), the best of three."""
+    """The same; where lcm-logger cannot be put before everything else (see paced_run.first), the best of three."""
     for attempt in range(3):
         (folder / str(attempt)).mkdir()
         found = paced(private_network, folder / str(attempt), seconds, *options)

@@ -43,54 +43,59 @@ def about() -> About:
     return About(1, SCENARIO, "bench", 0, "hoap2", 0.0, "", "")
 
 
-def one_loop(loaded: scenario.Scenario, ticks: int, log_path: Path | None) -> master.Outcome:
-    """A whole run without the rest of a run."""
+def one_loop(loaded: scenario.Scenario, ticks: int, log_path: Path | None) -> tuple[master.Outcome, float]:
+    """A whole run without the rest of a run, and the processor time that it took in ms."""
     both = open_both(Choice(), loaded)
     try:
-        telemetry = None if log_path is None else RunTelemetry(about(), log_path, None)
-        return master.run(
-            both.controller, both.plant, ticks, 1.0, master.StopRequest(), master.Company(telemetry=telemetry)
-        )
+        company = master.Company(telemetry=None if log_path is None else RunTelemetry(about(), log_path, None))
+        begin = time.thread_time()
+        outcome = master.run(both.controller, both.plant, ticks, 1.0, master.StopRequest(), company)
+        return outcome, 1e3 * (time.thread_time() - begin)
     finally:
         both.close()
 
 
 def loops(loaded: scenario.Scenario, ticks: int, pairs: int, folder: Path, progress: Callable[[str], None]) -> dict:
-    """Loops without and with the log in turns: milliseconds, and the ratio of each pair."""
-    without, with_log, equal = [], [], True
+    """Loops without and with the log in turns: ms of wall clock and of processor, and the ratios of the pairs."""
+    ms: dict[str, list[float]] = {name: [] for name in ("without", "with_log", "without_cpu", "with_log_cpu")}
+    equal = True
     for number in range(pairs):
         progress(f"loops {number + 1} of {pairs}, without and with the log")
         outcomes = {}
-        for log_path in (None, folder / "loop.lcm")[:: 1 if number % 2 else -1]:
-            outcomes[log_path is not None] = one_loop(loaded, ticks, log_path)
-        a, b = outcomes[False], outcomes[True]
-        without.append(a.timing.loop_s * 1e3)
-        with_log.append(b.timing.loop_s * 1e3)
-        rows = a.log.count
-        equal &= a.log.real[:rows].tobytes() == b.log.real[:rows].tobytes()
-        equal &= a.log.integer[:rows].tobytes() == b.log.integer[:rows].tobytes()
-    ratios = [b / a for a, b in zip(without, with_log)]
-    return {"without_ms": measure.median(without), "with_log_ms": measure.median(with_log),
-            "ratio": measure.median(ratios), "ratios": ratios, "equal": equal}  # fmt: skip
+        for name in ("without", "with_log")[:: 1 if number % 2 else -1]:
+            outcome, cpu_ms = one_loop(loaded, ticks, folder / "loop.lcm" if name == "with_log" else None)
+            outcomes[name] = outcome.log
+            ms[name].append(outcome.timing.loop_s * 1e3)
+            ms[f"{name}_cpu"].append(cpu_ms)
+        a, b = outcomes["without"], outcomes["with_log"]
+        equal &= a.count == b.count and a.real[: a.count].tobytes() == b.real[: b.count].tobytes()
+        equal &= a.integer[: a.count].tobytes() == b.integer[: b.count].tobytes()
+    ratios = [b / a for a, b in zip(ms["without"], ms["with_log"])]
+    cpu_ratios = [b / a for a, b in zip(ms["without_cpu"], ms["with_log_cpu"])]
+    return {**{f"{name}_ms": measure.median(values) for name, values in ms.items()}, "ratio": measure.median(ratios),
+            "cpu_ratio": measure.median(cpu_ratios), "ratios": ratios, "cpu_ratios": cpu_ratios,
+            "equal": equal}  # fmt: skip
 
 
 def sink(signals: SignalLog, path: Path | None, url: str | None) -> dict:
-    """Microseconds a tick of the calls, of the thread that sends, and how many messages went where."""
+    """Microseconds a tick of the calls (wall clock; processor) and of the thread that sends; where messages went."""
     ticks = signals.count
     ns = array("q", [5000] * ticks)
     telemetry = RunTelemetry(about(), path, url, _FullRate() if url else None)
     telemetry.open(signals, ns, ns)
-    publisher, spent, now = telemetry.publisher, 0, time.perf_counter_ns
+    publisher, spent, used = telemetry.publisher, 0, 0
+    now, cpu = time.perf_counter_ns, time.thread_time_ns
     for end in [*range(BATCH, ticks, BATCH), ticks]:
         signals.count = end
-        begin = now()
+        begin, cpu_begin = now(), cpu()
         telemetry.rows()
+        used += cpu() - cpu_begin
         spent += now() - begin
         if url:  # the next batch comes when this one is out, as in a paced run
             _drain(publisher)
     telemetry.close("done")
     counts = telemetry.counts
-    return {"us": spent / 1e3 / ticks, "sender_us": counts["sender_ns"] / 1e3 / ticks,
+    return {"us": spent / 1e3 / ticks, "cpu_us": used / 1e3 / ticks, "sender_us": counts["sender_ns"] / 1e3 / ticks,
             **{name: counts[name] for name in ("logged", "published", "dropped")}}  # fmt: skip
 
 
@@ -142,11 +147,11 @@ def run(repeat: int, seconds: float | None, progress: Callable[[str], None]) -> 
     about_machine = measure.machine()
     with tempfile.TemporaryDirectory(prefix="hoap2-bench-") as name:
         folder = Path(name)
-        recorded = one_loop(loaded, ticks, None)
+        recorded, _ = one_loop(loaded, ticks, None)
         if recorded.error:
             raise UserError(f"the run of {SCENARIO} ended: {recorded.error}")
         recorded.log.write(folder / "signals.parquet")
-        loop = loops(loaded, ticks, max(3, 2 * repeat + 1), folder, progress)
+        loop = loops(loaded, ticks, max(3, 4 * repeat + 1), folder, progress)
         runs = []
         for number in range(repeat):
             progress(f"sinks {number + 1} of {repeat}")

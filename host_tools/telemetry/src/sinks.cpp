@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -12,7 +13,9 @@
 namespace hoap2::telemetry {
 namespace {
 
-constexpr std::size_t kFileBuffer = 1U << 18U;    // some 100 ticks a write
+constexpr std::size_t kFileBuffer = 1U << 18U;  // some 100 ticks a write
+constexpr int kAtOnce = 16;                     // messages, more than a batch of a paced run has
+constexpr std::chrono::milliseconds kBreath{1};
 constexpr std::size_t kWaitingBytes = 1U << 22U;  // not sent yet: some 2 s at full rate
 
 }  // namespace
@@ -131,7 +134,13 @@ void Live::work() {
 }
 
 void Live::send_all(const Batch &batch) {
+  int sent_at_once = 0;
   for (const Batch::Item &item : batch.items) {
+    // after a wait the backlog goes out evenly: listeners hold little (lcm-logger 30 messages)
+    if (++sent_at_once > kAtOnce) {
+      std::this_thread::sleep_for(kBreath);
+      sent_at_once = 1;
+    }
     const bool sent =
         lcm_publish(lcm_.get(), item.channel, batch.bytes.data() + item.offset, item.length) == 0;
     ++(sent ? published_ : dropped_);
