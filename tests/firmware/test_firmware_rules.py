@@ -87,3 +87,14 @@ def test_the_library_holds_no_writable_data(controller_library: Path) -> None:
     writable = [(row[0], row[-1]) for row in rows
                 if row[-1] in {".data", ".bss", ".tdata", ".tbss"} and not start_up_code.fullmatch(row[0])]
     assert not writable
+
+
+def test_the_can_nodes_need_nothing_but_memory_moves(build_dir: Path) -> None:
+    archive = build_dir / "firmware" / "libhoap2_can_nodes.a"
+    listed = subprocess.run(["nm", "--format=posix", str(archive)], capture_output=True, text=True, check=True).stdout
+    symbols = [line.split()[:2] for line in listed.splitlines() if len(line.split()) >= 2]
+    defined = {name for name, kind in symbols if kind not in "Uw"}
+    assert "hoap2_can_decode" in defined and "hoap2_can_board_tick" in defined
+    outside = {name for name, kind in symbols if kind == "U"} - defined
+    assert outside <= {"memcpy", "memset", "memmove", "memcmp", "_GLOBAL_OFFSET_TABLE_", "__stack_chk_fail"}
+    assert not {name for name, kind in symbols if kind in "dDbBC"}, "writable data"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from . import c_headers, fmi, fmi_pages, lcm_types, mjcf, pages, ssp, urdf
+from . import c_headers, can_c, can_dbc, can_page, can_table, fmi, fmi_pages, lcm_types, mjcf, pages, ssp, urdf
 from .tables import PRODUCTS, ROOT, Table, load
 
 
@@ -23,6 +23,7 @@ def outputs() -> dict[str, str]:
         "docs/generated/signals.md": pages.signals_page(table),
         **_fmu_outputs(table),
         **_telemetry_outputs(table),
+        **_can_outputs(table),
     }
 
 
@@ -41,6 +42,14 @@ def _telemetry_outputs(table: Table) -> dict[str, str]:
     out = {f"{folder}/types/generated/{name}": text for name, text in lcm_types.files(table).items()}
     out["docs/generated/telemetry.md"] = lcm_types.page(table)
     return out | {f"{folder}/generated/places.hpp": lcm_types.places_header(table)}
+
+
+def _can_outputs(table: Table) -> dict[str, str]:
+    can, folder = can_table.load(), "firmware/can/generated"
+    out = {f"{folder}/can_table.h": can_c.header(can), f"{folder}/can_table.c": can_c.source(can),
+           "sim/include/hoap2_link/generated/disturbances.h": can_c.disturbances_header(can),
+           "docs/generated/can.md": can_page.page(can, table)}  # fmt: skip
+    return out | {f"{folder}/hoap2_{name}.dbc": can_dbc.dbc(can, table, bus) for bus, name in enumerate(can.buses)}
 
 
 def main() -> int:
