@@ -23,7 +23,7 @@ from hoap2.errors import UserError
 from hoap2.pace import BATCH_TICKS, Pace
 from hoap2.signal_log import SignalLog
 from hoap2.telemetry.run_telemetry import RunTelemetry
-from hoap2.wiring import Recorder, Side, check_connections, connect, log_columns, writer
+from hoap2.wiring import DirectLink, Link, Recorder, Side, check_connections, connect, log_columns
 
 __all__ = [
     "Commands", "Company", "Outcome", "Recorder", "Side", "StopRequest", "Timing", "connect", "log_columns", "run",
@@ -99,6 +99,7 @@ class Outcome:
     interrupted: bool = False
     error: str | None = None
     warnings: list[str] = field(default_factory=list)
+    link: Link = field(default_factory=DirectLink)
 
 
 class Commands(Protocol):
@@ -125,12 +126,15 @@ class Company:
 
 
 def run(controller: Side, plant: Side, ticks: int, stop_after_fall_s: float, stop: StopRequest,
-        company: Company | None = None) -> Outcome:  # fmt: skip
-    """Step both initialised sides `ticks` times, or until a fall, an error or a stop request."""
+        company: Company | None = None, link: Link | None = None) -> Outcome:  # fmt: skip
+    """Step both initialised sides `ticks` times, or until a fall, an error or a stop request.
+
+    link: what carries the values from one to the other; without it they go directly.
+    """
     check_connections(controller, plant)
     company = company or Company()
     log = SignalLog(log_columns(controller, plant), ticks + 1)
-    outcome = Outcome(log, Timing(ticks))
+    outcome = Outcome(log, Timing(ticks), link=link or DirectLink())
     fall = _FallWatch(log, stop_after_fall_s, company.telemetry)
     if company.commands is not None:
         company.commands.open(log)
@@ -192,8 +196,7 @@ class _Loop:
     def __init__(self, controller: Side, plant: Side, outcome: Outcome) -> None:
         self.log, self.timing = outcome.log, outcome.timing
         self.recorder = Recorder(controller, plant, self.log)
-        of_controller, of_plant = self.recorder.parts
-        self.writes = writer(plant, controller, *of_plant), writer(controller, plant, *of_controller)
+        self.writes = outcome.link.writers(controller, plant, *self.recorder.parts)
         self.steps = controller.step, plant.step
 
     def advance(self, first: int, last: int) -> None:

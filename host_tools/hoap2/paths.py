@@ -46,6 +46,11 @@ def telemetry_library() -> Path:
     return _built_since(library, "host_tools/telemetry/generated/places.hpp")
 
 
+def can_library() -> Path:
+    """The CAN interface's C functions, with the modelled link."""
+    return _built_since(built("sim/can/libhoap2_can.so"), "firmware/can/generated/can_table.h")
+
+
 def fmu(product: str, fmi: int) -> Path:
     """An FMU of this build: product `controller` or `plant`, fmi 2 or 3."""
     return built(f"fmu/hoap2_{product}_fmi{fmi}.fmu")

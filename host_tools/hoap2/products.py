@@ -13,6 +13,7 @@ from hoap2.master import Side
 from hoap2.scenario import Scenario
 from hoap2.signal_log import Column, columns_of
 from hoap2.wall_clock import WallClock
+from hoap2.wiring import DirectLink, Link
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,7 @@ class Products:
     plant: Side
     files: dict[str, Path]
     instances: tuple[FmuInstance, ...] = ()
+    link: Link = field(default_factory=DirectLink)
     clock: WallClock = field(default_factory=WallClock)  # runs since they began to be opened
 
     def close(self) -> None:
@@ -91,6 +93,7 @@ def open_both(choice: Choice, scenario: Scenario) -> Products:
     """Both FMUs, started with the scenario's parameters; UserError when one cannot be used."""
     clock = WallClock()
     files = {product: choice.path(product) for product in PRODUCTS}
+    link = open_link(scenario)
     opened: list[FmuInstance] = []
     try:
         for product in PRODUCTS:
@@ -101,4 +104,13 @@ def open_both(choice: Choice, scenario: Scenario) -> Products:
         if isinstance(error, UserError):
             raise
         raise UserError(str(error)) from None
-    return Products(FmuSide(opened[0]), FmuSide(opened[1]), files, tuple(opened), clock)
+    return Products(FmuSide(opened[0]), FmuSide(opened[1]), files, tuple(opened), link, clock)
+
+
+def open_link(scenario: Scenario) -> Link:
+    """What carries the signals of this scenario."""
+    if scenario.link == "direct":
+        return DirectLink()
+    from hoap2.can.link import CanLink
+
+    return CanLink(scenario.can, scenario.seed)

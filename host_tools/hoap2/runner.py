@@ -13,6 +13,8 @@ from pathlib import Path
 from rich.console import Console
 
 from hoap2 import __version__, bounds, master, metrics, parameters, runfolder, toml_out
+from hoap2.can import parameters as can_parameters
+from hoap2.can import summary as can_summary
 from hoap2.generate.tables import PRODUCTS, ROOT
 from hoap2.pace import Pace
 from hoap2.products import Products
@@ -62,6 +64,9 @@ def resolved_toml(scenario: Scenario, files: dict[str, Path], run_id: int | None
     for product in PRODUCTS:
         known = parameters.known(product)
         document[product] = {n: parameters.plain(known[n], v) for n, v in scenario.values[product].items()}
+    if scenario.link != "direct":
+        document["scenario"]["link"] = scenario.link
+        document["can"] = can_parameters.plain(scenario.can)
     document["bounds"] = {n: {"min": b.low, "max": b.high} for n, b in scenario.bounds.items()}
     record: dict = {"seed": scenario.seed, "version": __version__, "git": git_describe()}
     if run_id is not None:
@@ -90,11 +95,13 @@ def summarise(scenario: Scenario, outcome: master.Outcome) -> dict:
         "error": outcome.error,
         "seed": scenario.seed,
         "sense": scenario.sensors,
+        "link": scenario.link,
         "duration_s": outcome.timing.ticks * parameters.table().tick_us / 1e6,
         "duration_planned_s": scenario.duration_s,
         **numbers,
         **{key: value for key, value in timing.items() if key != "loop_s"},
         "bounds": verdict,
+        **({"can": can_summary.summarise(outcome.link)} if scenario.link == "can" else {}),
     }
 
 
@@ -195,7 +202,7 @@ def _simulate(scenario: Scenario, products: Products, stop: master.StopRequest, 
     company.progress = progress
     try:
         return master.run(products.controller, products.plant, ticks_of(scenario),
-                          scenario.options["stop_after_fall_s"], stop, company)  # fmt: skip
+                          scenario.options["stop_after_fall_s"], stop, company, products.link)  # fmt: skip
     finally:
         if progress is not None:
             progress.close()

@@ -9,16 +9,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from hoap2 import bounds, metric_names, parameters, soil_presets
+from hoap2.can import parameters as can_parameters
 from hoap2.errors import UserError
 from hoap2.generate.tables import PRODUCTS, ROOT
 
 FOLDER = ROOT / "sim" / "scenarios"
-SCENARIO_KEYS = {"name", "title", "section", "text", "duration_s", "sensors", "solver"}
+SCENARIO_KEYS = {"name", "title", "section", "text", "duration_s", "sensors", "solver", "link"}
 RUN_KEYS = {"stop_after_fall_s": (0.0, 60.0), "settle_s": (0.0, 60.0), "stand_speed_m_s": (0.0, 1.0)}
 RUN_DEFAULTS = {"stop_after_fall_s": 1.0, "settle_s": 2.0, "stand_speed_m_s": 0.02}
 PUSH_KEYS = {"link", "force_W_N", "point_L_m", "start_s", "duration_s", "ramp_s"}
 BLOCK_KEYS = {"centre_W_m", "size_m", "yaw_W_rad"}
-TABLES = {"scenario", "controller", "plant", "soil", "push", "block", "bounds", "run", "record"}
+TABLES = {"scenario", "controller", "plant", "can", "soil", "push", "block", "bounds", "run", "record"}
 DURATION_RANGE_S = (0.01, 600.0)
 # Both products must agree on these; given for one, they hold for the other.
 MIRRORED = (("start_pos_W_m", "start_pos_W_m"), ("start_yaw_W_rad", "start_yaw_W_rad"),
@@ -45,6 +46,8 @@ class Scenario:
     draws: dict = field(default_factory=dict)
     explicit: set[str] = field(default_factory=set)
     forced: set[str] = field(default_factory=set)
+    link: str = "direct"  # or "can"
+    can: dict[str, float] = field(default_factory=can_parameters.defaults)  # of the modelled link
 
     @property
     def sensors(self) -> str:
@@ -114,13 +117,23 @@ def _resolve(raw: dict, path: Path, overrides: list[str], sensors: str | None, d
         name=_name(head.get("name", path.stem)), title=head["title"], section=head.get("section", ""),
         text=" ".join(head.get("text", "").split()), duration_s=0.0, values=values,
         bounds=bounds.parse(raw.get("bounds", {}), metric_names.NAMES), options=options, explicit=explicit,
-        forced=forced,
+        forced=forced, link=_link(head.get("link", "direct")), can=can_parameters.check(raw.get("can", {})),
     )  # fmt: skip
+    if scenario.link == "can" and "controller.stale_limit_ticks" not in explicit:
+        values["controller"]["stale_limit_ticks"] = (float(can_parameters.STALE_LIMIT_TICKS),)
+    if scenario.link != "can" and raw.get("can"):
+        raise UserError("[can] is for runs over CAN", "add link = \"can\" to [scenario], or --link can")
     wanted = head.get("duration_s", _own_duration(scenario))
     scenario.duration_s = _whole_ticks(_number("scenario.duration_s", wanted, *DURATION_RANGE_S))
     record = raw.get("record", {})
     scenario.seed, scenario.draws = int(record.get("seed", 0)), dict(record.get("draws", {}))
     return scenario
+
+
+def _link(name: str) -> str:
+    if name not in can_parameters.LINKS:
+        raise parameters.unknown("link", name, can_parameters.LINKS)
+    return name
 
 
 def _name(name) -> str:

@@ -151,3 +151,20 @@ def _in_order(target: Side, places: dict[str, tuple[Place, Place]]) -> bool:
         if not isinstance(index_in, slice) or index_in.start != 0 or not isinstance(index_out, slice):
             return False
     return True
+
+
+Rows = tuple[np.ndarray, np.ndarray]  # reals and ints of a side's outputs, (ticks, elements)
+
+
+class Link(Protocol):
+    """What carries the outputs of each side to the inputs of the other."""
+
+    def writers(self, controller: Side, plant: Side, of_controller: Rows, of_plant: Rows) -> tuple[RowCall, RowCall]:
+        """What sets the inputs of the controller and those of the plant, called in this order at each tick."""
+
+
+class DirectLink:
+    """Values are copied."""
+
+    def writers(self, controller: Side, plant: Side, of_controller: Rows, of_plant: Rows) -> tuple[RowCall, RowCall]:
+        return writer(plant, controller, *of_plant), writer(controller, plant, *of_controller)

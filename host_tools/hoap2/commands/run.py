@@ -18,6 +18,9 @@ def command(
     seed: Annotated[int, typer.Option(min=0, help="Draw disturbances and noise from this seed; 0 is nominal.")] = 0,
     seeds: Annotated[str | None, typer.Option(metavar="RANGE", help="A study over seeds: 1-20 or 1,3,5-7.")] = None,
     sensors: Annotated[str | None, typer.Option(metavar="ideal|hoap2", help="Sensor preset.")] = None,
+    link: Annotated[
+        str | None, typer.Option(metavar="direct|can", help="How controller and plant are connected.")
+    ] = None,
     duration: Annotated[float | None, typer.Option(metavar="SECONDS", help="Simulated time.")] = None,
     out: Annotated[
         str | None, typer.Option(metavar="NAME", help="Name of the run folder in out/<scenario>/, or a path.")
@@ -55,7 +58,8 @@ def command(
     from hoap2.telemetry import options
 
     wanted = options.Options(realtime, lcm, telemetry, accept_commands)
-    request = study.Request(scenario, tuple(overrides or ()), sensors, duration, Choice(controller, plant, fmi), video,
+    overrides = [*(overrides or ()), *([f"scenario.link={link}"] if link else [])]
+    request = study.Request(scenario, tuple(overrides), sensors, duration, Choice(controller, plant, fmi), video,
                             wanted)  # fmt: skip
     console = Console(stderr=True, highlight=False)
     if seeds is not None:
@@ -67,7 +71,7 @@ def command(
         if json:
             print(json_module.dumps(result.document, indent=2, ensure_ascii=False))
         return result.exit_code
-    loaded = scenario_module.load(scenario, list(overrides or ()), sensors, duration)
+    loaded = scenario_module.load(scenario, overrides, sensors, duration)
     seeds_module.apply(loaded, seed)
     summary = study.run_one(request, loaded, out, console)
     if json:

@@ -68,7 +68,7 @@ def _companion(walk: Walk) -> Walk:
     try:
         with master.StopRequest() as stop:
             outcome = master.run(both.controller, both.plant, runner.ticks_of(loaded),
-                                 loaded.options["stop_after_fall_s"], stop)  # fmt: skip
+                                 loaded.options["stop_after_fall_s"], stop, link=both.link)  # fmt: skip
     finally:
         both.close()
     if outcome.interrupted:

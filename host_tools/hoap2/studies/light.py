@@ -40,6 +40,7 @@ def fingerprint(scenario: Scenario, hashes: dict[str, str]) -> str:
     named = {p: dict(zip(parameters.known(p), (scenario.values[p][n] for n in parameters.known(p)))) for p in PRODUCTS}
     content = {
         "values": named, "options": scenario.options, "duration_s": scenario.duration_s, "products": hashes,
+        "link": [scenario.link, scenario.can] if scenario.link != "direct" else [],
         "code": [file_sha256(Path(module.__file__)) for module in (metrics, walk_metrics, walk_plan)],
     }  # fmt: skip
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
@@ -58,7 +59,7 @@ def execute(scenario: Scenario, choice: products.Choice) -> dict:
         both = products.open_both(choice, scenario)
         try:
             outcome = master.run(both.controller, both.plant, runner.ticks_of(scenario),
-                                 scenario.options["stop_after_fall_s"], stop)  # fmt: skip
+                                 scenario.options["stop_after_fall_s"], stop, link=both.link)  # fmt: skip
         finally:
             both.close()
     summary = runner.summarise(scenario, outcome)

@@ -1,0 +1,54 @@
+"""What a run over CAN has to say in summary.json."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hoap2 import parameters
+from hoap2.can import library
+from hoap2.can.link import CanLink
+from hoap2.generate import can_table
+
+
+def _named(values, names) -> dict[str, int]:
+    """The counts that are not zero, by name."""
+    return {name: int(value) for name, value in zip(names, values) if value}
+
+
+def _latency(counts: library.Counts) -> dict[str, dict]:
+    """By message: frames delivered, mean and largest time from queueing to arrival."""
+    out = {}
+    for kind in can_table.load().kinds:
+        frames = counts.frames[kind.priority]
+        if frames:
+            out[kind.name] = {"frames": frames, "mean_us": counts.latency_sum_ns[kind.priority] / frames / 1e3,
+                              "max_us": counts.latency_max_ns[kind.priority] / 1e3}  # fmt: skip
+    return out
+
+
+def summarise(link: CanLink) -> dict:
+    """Bus load, latency, losses, refusals, safe modes; percentages of the time of the run."""
+    counts, ticks = link.counts(), link.ticks
+    tick_us = parameters.table().tick_us
+    buses = {}
+    for i, name in enumerate(can_table.load().buses):
+        busy_us = ticks[:, i] if len(ticks) else np.zeros(1)
+        buses[name] = {
+            "load_percent": 100 * counts.busy_ns[i] / (1e3 * tick_us * max(1, counts.ticks)),
+            "busiest_tick_us": float(busy_us.max()),
+            "queued": counts.queued[i], "delivered": counts.delivered[i], "pending": counts.pending[i],
+            "lost": _named(counts.lost[i], library.CAUSES),
+            "error_frames": counts.error_frames[i], "changed": counts.changed[i],
+        }  # fmt: skip
+    refused = library.refusals()
+    return {
+        "buses": buses,
+        "lost_percent": 100 * sum(map(sum, counts.lost)) / max(1, sum(counts.queued)),
+        "latency": _latency(counts),
+        "refused_by_controller": _named(counts.refused_by_controller, refused),
+        "refused_by_boards": _named(counts.refused_by_boards, refused),
+        "holds": counts.holds,
+        "hold_ticks": counts.hold_ticks,
+        "clipped": counts.clipped,
+        "controller_state": can_table.load().raw["enum"]["controller_state"][int(ticks[-1, 5])] if len(ticks) else "boot",
+    }
