@@ -18,7 +18,7 @@ COMMANDS = {
     "figure": "a figure of section 7.3 as the book lays it out, from a run",
     "study": "the sand walks over many seeds (sand), and over parameters (map)",
     "compare": "two runs side by side: one video, one page",
-    "monitor": "a run as it happens, or a finished one again, on a page for the browser (--web)",
+    "monitor": "a run as it happens, in the terminal or in the browser (--web)",
     "command": "ask something of a run that was started with --accept-commands",
     "replay": "publish a finished run again by LCM, for a monitor",
     "export": "a run for other tools: MCAP, CSV, Parquet, rerun",

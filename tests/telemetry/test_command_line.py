@@ -28,6 +28,7 @@ run command walk start --timeout 30 --json >"$OUT/start" 2>&1; echo "start $?"
 run command push chest 0 -4 0 0.05 --json >"$OUT/push" 2>&1; echo "push $?"
 run command push chest 0 -4000 0 0.05 >"$OUT/hard" 2>&1; echo "hard $?"
 run command set tpcc_kp_1_s2 25 --json >"$OUT/set" 2>&1; echo "set $?"
+run monitor --once >"$OUT/monitor" 2>&1; echo "monitor $?"
 run command step length_m far >"$OUT/bad" 2>&1; echo "bad $?"
 sleep 1.5
 kill -TERM $asked; wait $asked; echo "run $?"
@@ -63,6 +64,12 @@ def test_a_command_is_answered_and_the_exit_code_says_how(played):
     assert (codes["start"], codes["push"], codes["set"], codes["hard"], codes["bad"]) == (0, 0, 0, 1, 2), played[2]
     assert json.loads((out / "push").read_text())["value"] == [0.0, -4.0, 0.0, 0.05]
     assert "more than 200 N" in (out / "hard").read_text() and "not a number" in (out / "bad").read_text()
+
+
+def test_the_monitor_shows_the_run(played):
+    out, codes, _ = played
+    text = (out / "monitor").read_text()
+    assert codes["monitor"] == 0 and "floor-stand" in text and "takes commands" in text and "mode" in text
 
 
 def test_the_run_can_be_told_from_its_log(played):

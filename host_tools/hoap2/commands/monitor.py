@@ -17,6 +17,7 @@ def command(
     lcm: Annotated[
         str | None, typer.Option("--lcm", metavar="URL", help="Where the run publishes; else LCM_DEFAULT_URL.")
     ] = None,
+    once: Annotated[bool, typer.Option("--once", help="Print one picture in the terminal and end.")] = False,
     port: Annotated[int, typer.Option(min=0, max=65535, help="--web: port of the page; 0 is any.")] = DEFAULT_PORT,
     host: Annotated[
         str, typer.Option(metavar="ADDRESS", help="--web: address to serve on; one that others reach needs --token.")
@@ -30,13 +31,30 @@ def command(
 ) -> int:
     """Watch a run that was started with --realtime (or --lcm URL); with --web replay finished runs as well.
 
-    It changes nothing in the run, and may come late, end and come again. Ctrl-C ends it.
+    It changes nothing in the run, and may come late, end and come again. q or Ctrl-C ends it. Exit code of --once: 1
+    when no run is heard.
     """
     from hoap2.errors import UserError
 
+    if web and once:
+        raise UserError("give either --web or --once, not both")
     if web:
         return _web(lcm, port, host, token, runs)
-    raise UserError("the monitor in the terminal is not there yet", "give --web")
+    return _terminal(lcm, once)
+
+
+def _terminal(url: str | None, once: bool) -> int:
+    from rich.console import Console
+
+    from hoap2.errors import UserError
+    from hoap2.monitor import terminal
+
+    console = Console(highlight=False)
+    if once:
+        return terminal.once(url, console, timeout_s=3.0)
+    if not console.is_terminal:
+        raise UserError("the monitor needs a terminal", "--once prints one picture, --web is for the browser")
+    return terminal.watch(url, console)
 
 
 def _web(url: str | None, port: int, host: str, token: str | None, runs: Path) -> int:
