@@ -134,6 +134,15 @@ def test_an_end_a_silence_and_a_new_run_are_told(sender, monkeypatch):
     assert "running" in sender.shown()
 
 
+def test_steps_do_not_drive_other_events_away(sender):
+    sender.everything()
+    sender.send(types.EVENT, kind="command_refused", text="push chest: too hard", time_us=1_000_000)
+    for i in range(60):
+        sender.send(types.EVENT, kind="step", text=f"step {i}, stance left", time_us=2_000_000 + i)
+    text = sender.shown()
+    assert "too hard" in text and "step 59" in text and "step 2," not in text
+
+
 def test_texts_from_outside_cannot_touch_the_terminal(sender):
     sender.everything()
     sender.send(types.EVENT, kind="note", text="\x1b[2J[red]gone[/] \x07 hello")

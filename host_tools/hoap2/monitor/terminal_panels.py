@@ -231,9 +231,12 @@ def steering(view: View) -> Panel:
 
 
 def events(view: View, rows: int) -> Panel:
-    """The last ones, the newest at the bottom."""
+    """The last ones, the newest at the bottom; steps, of which there are so many, only as far as they leave room."""
     out = Text(no_wrap=True, overflow="ellipsis")
-    shown = list(view.events)[-max(1, rows) :]
+    rows = max(1, rows)
+    others = [e for e in view.events if e.kind != "step"][-rows:]
+    steps = [e for e in view.events if e.kind == "step"][len(others) - rows :] if len(others) < rows else []
+    shown = sorted(others + steps, key=lambda e: e.time_s)
     for i, event in enumerate(shown):
         out.append(f"{event.time_s:8.3f} ", "bright_black")
         if not event.text.startswith(event.kind):
