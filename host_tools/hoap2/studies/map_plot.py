@@ -91,7 +91,8 @@ def _panel(top: Axes, bottom: Axes, sweep: dict, scenarios: list[str], first: bo
                      [b["fall_steps"][-1] - m for m, (_, b) in zip(steps, fell)]]  # fmt: skip
             bottom.errorbar([p for p, _ in fell], steps, reach, color=color, marker=marker, markersize=3,
                             linestyle="none", capsize=1.8, elinewidth=0.8)  # fmt: skip
-    top.set_title(sweep["title"], fontsize=7.5, pad=3)
+    unit = f" ({_unit(axis)})" if axis["unit"] else ""
+    top.set_title(sweep["title"] + unit, fontsize=7.5, pad=3)
     top.set(ylim=(-6, 106), yticks=(0, 50, 100))
     bottom.set(ylim=(0, 37), yticks=(0, 18, 36))
     for axes in (top, bottom):
@@ -105,9 +106,6 @@ def _panel(top: Axes, bottom: Axes, sweep: dict, scenarios: list[str], first: bo
         bottom.tick_params(axis="x", labelrotation=35)
         for label in bottom.get_xticklabels():
             label.set(ha="right", rotation_mode="anchor")
-    if axis["unit"]:
-        bottom.annotate(_unit(axis), (1.0, 1.0), xycoords="axes fraction", ha="right", va="top", fontsize=6.5,
-                        color=style.GREY)  # fmt: skip
     if first:
         top.set_ylabel("survived (%)")
         bottom.set_ylabel("fall step")
