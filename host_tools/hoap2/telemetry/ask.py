@@ -28,7 +28,7 @@ class Answer:
 def ask(kind: str, name: str, value: list[float], url: str | None, timeout_s: float, sender: str = "shell") -> Answer:
     """Send a command to the run that is heard on this URL. UserError when none is there, listens or answers."""
     if not transport.hears(transport.url_or_default(url)):
-        raise UserError(f"no run can be asked on {url}", "give --lcm the udpm:// or tcpq:// URL of the run")
+        raise UserError(f"no run can be asked on {url}", "give --lcm the udpm:// URL of the run")
     with Listener(url, [types.RUN, types.HEALTH, types.ANSWER]) as listener:
         message = types.type_of(types.COMMAND)()
         message.run_id, message.command_id = _running(listener, timeout_s), secrets.randbits(62)

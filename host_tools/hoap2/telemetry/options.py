@@ -32,4 +32,4 @@ class Options:
             transport.check_url(self.live_url)
         if self.accept_commands and not transport.hears(self.live_url):
             raise UserError("commands need a connection on which others can be heard",
-                            "--accept-commands goes with --realtime, or with --lcm udpm://... or tcpq://...")  # fmt: skip
+                            "--accept-commands goes with --realtime, or with --lcm udpm://...")  # fmt: skip

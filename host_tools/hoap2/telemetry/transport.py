@@ -24,7 +24,7 @@ def url_or_default(url: str | None) -> str:
 
 def hears(url: str | None) -> bool:
     """Can another process send something to this connection?"""
-    return url is not None and url.partition("://")[0] in ("udpm", "mpudpm", "tcpq")
+    return url is not None and url.partition("://")[0] == "udpm"
 
 
 def check_url(url: str) -> None:
