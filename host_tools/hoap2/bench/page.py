@@ -22,6 +22,7 @@ SIZE = {"width": 1600, "height": 900}
 WARM_UP_S = 15.0
 PERIOD_S = 5.0
 START_S = 60.0
+LONGEST_RUN_S = 600.0
 WALK = ("run", "floor-walk", "--realtime", "--no-video", "--set", "controller.steps_forward=1000")
 
 
@@ -104,7 +105,7 @@ def run(seconds: float, url: str | None, status: Callable[[str], None]) -> dict:
     lcm = ["--lcm", url] if url else []
     with tempfile.TemporaryDirectory() as folder:
         logs = [Path(folder) / name for name in ("monitor.log", "run.log")]
-        duration = f"{seconds + WARM_UP_S + START_S:.0f}"
+        duration = f"{min(LONGEST_RUN_S, seconds + WARM_UP_S + START_S):.0f}"
         with _process(["monitor", "--web", "--port", "0", *lcm], logs[0]) as monitor, sync_playwright() as driver:
             address = _address(monitor, logs[0])
             browser = driver.chromium.launch(executable_path=str(CHROMIUM), headless=True, args=ARGUMENTS)

@@ -113,7 +113,7 @@ def telemetry(
 
 @app.command()
 def page(
-    seconds: Annotated[float, typer.Option(min=10.0, max=3600.0, help="How long it is watched, after a warm-up.")] = 60,
+    seconds: Annotated[float, typer.Option(min=10.0, max=580.0, help="How long it is watched, after a warm-up.")] = 60,
     lcm: Annotated[str | None, typer.Option("--lcm", metavar="URL", help="LCM URL; else LCM_DEFAULT_URL.")] = None,
     json: Json = False,
 ) -> int:
