@@ -12,6 +12,7 @@ from pathlib import Path
 import lcm
 import pytest
 
+import paced_run
 import rig
 from hoap2.telemetry import types
 from hoap2.telemetry.log_file import LogFile
@@ -131,7 +132,7 @@ def test_logplayer_plays_our_log_and_lcm_logger_records_it(private_network, reco
     """Round trip through Debian's tools: the messages that come back are those of the log."""
     copy = tmp_path / "copy.lcm"
     script = f"""
-        /usr/bin/lcm-logger -q --lcm-url='{URL}' {copy} & logger=$!
+        {" ".join(paced_run.first())} /usr/bin/lcm-logger -q --lcm-url='{URL}' {copy} & logger=$!
         sleep 1
         {LOGPLAYER} --lcm-url='{URL}' --speed=2 {recorded}
         sleep 1; kill -TERM $logger; wait $logger || true"""

@@ -14,6 +14,8 @@ BOUND_RATIO = 1.10
 def show(document: dict) -> None:
     """For people; nothing is judged, the bounds are shown beside."""
     console = Console(highlight=False)
+    if not console.is_terminal:
+        console = Console(highlight=False, width=120)
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
     for head in ("into", "us a tick", "of processor", "bound", "sender, us a tick", "messages a tick", "dropped"):
         table.add_column(head, justify="left" if head == "into" else "right", no_wrap=True)

@@ -49,7 +49,7 @@ def load() -> ctypes.CDLL:
         "open": (pointer, [ctypes.POINTER(Config), text, ctypes.c_size_t]),
         "rows": (None, [pointer, int64, ctypes.c_double, int64]),
         "send": (None, [pointer, text, text, int32, int64, int32]),
-        "flush": (None, [pointer]), "finish": (None, [pointer, int32]), "destroy": (None, [pointer]),
+        "finish": (None, [pointer, int32]), "destroy": (None, [pointer]),
         "counts": (None, [pointer, ctypes.POINTER(Counts)]), "problem": (text, [pointer]),
         "subscribe": (ctypes.c_int, [pointer, Callback]), "poll": (ctypes.c_int, [pointer, ctypes.c_int]),
         "elements": (int32, [int32]), "config_size": (ctypes.c_size_t, []),
@@ -83,9 +83,6 @@ class Publisher:
     def send(self, channel: str, data: bytes, tick: int, where: int) -> None:
         """An encoded message; the library fills in its header."""
         self._library.hoap2_telemetry_send(self._handle, channel.encode(), data, len(data), tick, where)
-
-    def flush(self) -> None:
-        self._library.hoap2_telemetry_flush(self._handle)
 
     def counts(self) -> dict[str, int]:
         counts = Counts()

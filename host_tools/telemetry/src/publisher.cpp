@@ -59,7 +59,7 @@ void Filler::fill(void *message, const double *real, const std::int32_t *integer
 
 Publisher::Publisher(const hoap2_telemetry_config_t &config)
     : config_(config),
-      log_(config.log_path),
+      log_(config.log_path, config.paced != 0),
       live_(config.live_url),
       fill_state_(STATE_PLACES, size_of(STATE_PLACES), config.columns[HOAP2_TELEMETRY_STATE]),
       fill_gait_(GAIT_PLACES, size_of(GAIT_PLACES), config.columns[HOAP2_TELEMETRY_GAIT]),
@@ -75,7 +75,8 @@ void Publisher::pass(Channel &channel, std::int64_t tick, int length, bool numbe
   if ((where & HOAP2_TELEMETRY_TO_LOG) != 0) {
     log_.write(channel, log_tick * config_.tick_us, buffer_.data(), length, numbered);
   }
-  if ((where & HOAP2_TELEMETRY_LIVE) != 0) live_.send(channel, buffer_.data(), length, numbered);
+  if ((where & HOAP2_TELEMETRY_LIVE) != 0)
+    live_.send(channel, log_tick * config_.tick_us, buffer_.data(), length, numbered);
 }
 
 bool Publisher::live_due(Clock::time_point now) {
@@ -96,6 +97,7 @@ void Publisher::rows(std::int64_t end, double lag_us, std::int64_t overruns) {
     row(tick, every || (last && tick == end - 1));
   }
   repeat_run(start);
+  log_.pass();
   live_.pass();
   spent_ns_ += std::chrono::nanoseconds(Clock::now() - start).count();
 }

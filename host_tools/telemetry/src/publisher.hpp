@@ -38,13 +38,12 @@ class Filler {
 class Publisher {
  public:
   explicit Publisher(const hoap2_telemetry_config_t &config);
-  ~Publisher() { live_.finish(); }  // while the channels' names are there
+  ~Publisher() { finish(false); }  // while the channels' names are there
   Publisher(const Publisher &) = delete;
   Publisher &operator=(const Publisher &) = delete;
   void rows(std::int64_t end, double lag_us, std::int64_t overruns);
   void send(const char *channel, const void *data, int length, std::int64_t tick, int where);
   void finish(bool ended);
-  void flush() { log_.flush(); }
   void counts(hoap2_telemetry_counts_t *counts) const;
   const std::string &problem() const { return log_.problem(); }
   Live &live() { return live_; }

@@ -6,13 +6,13 @@
 #include <lcm/lcm.h>
 
 #include <atomic>
-#include <condition_variable>
+#include <chrono>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
+
+#include "outbox.hpp"
 
 namespace hoap2::telemetry {
 
@@ -32,75 +32,62 @@ enum { kRunIdAt = 8, kSequenceAt = 16, kTickAt = 24, kTimeAt = 32, kHeaderEnd = 
 
 class Log {
  public:
-  // Empty: no log. Throws std::runtime_error.
-  explicit Log(const char *path);
-  bool open() const { return log_ != nullptr; }
+  // No path: no log. paced: written by a thread, for a disk may make its writer wait. Throws
+  // std::runtime_error.
+  Log(const char *path, bool paced);
+  bool open() const { return log_ != nullptr && !failed_; }
   // data: with the common header when `numbered`; its sequence number is filled in.
   void write(Channel &channel, std::int64_t time_us, std::uint8_t *data, int length, bool numbered);
-  void flush();
+  // Lets the thread have what was written.
+  void pass();
   // Writes what is left; the file is whole when problem() is still empty.
   void close();
   std::int64_t count() const { return count_; }
+  // To be asked after close().
   const std::string &problem() const { return problem_; }
 
  private:
   struct Destroy {
     void operator()(lcm_eventlog_t *log) const { lcm_eventlog_destroy(log); }
   };
+  void deliver(const Outbox::Message &message);
   void fail();
   std::vector<char> buffer_;  // of the file: outlives it
   std::unique_ptr<lcm_eventlog_t, Destroy> log_;
-  std::int64_t count_ = 0;
+  std::atomic<std::int64_t> count_{0};
+  std::atomic<bool> failed_{false};
   std::string problem_;
+  std::unique_ptr<Outbox> outbox_;
 };
 
-// Sends from a thread of its own, so that a run never waits for a transport. What it cannot take in time is
-// dropped and leaves a gap in the sequence numbers.
+// Sends from a thread, so that a run never waits for a transport. What it cannot take in time is dropped and
+// leaves a gap in the sequence numbers.
 class Live {
  public:
-  // Empty: not live. Throws std::runtime_error.
+  // No url: not live. Throws std::runtime_error.
   explicit Live(const char *url);
-  ~Live() { finish(); }
-  Live(const Live &) = delete;
-  Live &operator=(const Live &) = delete;
   bool open() const { return lcm_ != nullptr; }
   // Put by until the next pass().
-  void send(Channel &channel, std::uint8_t *data, int length, bool numbered);
-  // Hands on what was put by.
+  void send(Channel &channel, std::int64_t time_us, std::uint8_t *data, int length, bool numbered);
   void pass();
   // Sends what is left, and ends the thread; the connection stays.
   void finish();
   lcm_t *connection() { return lcm_.get(); }
   std::int64_t published() const { return published_; }
-  std::int64_t dropped() const { return dropped_; }
-  std::int64_t waiting() const { return taken_ - published_ - dropped_; }
-  std::int64_t sender_ns() const { return sender_ns_; }
+  std::int64_t dropped() const { return refused_ + (outbox_ ? outbox_->dropped() : 0); }
+  std::int64_t waiting() const { return outbox_ ? outbox_->waiting() : 0; }
+  std::int64_t sender_ns() const { return outbox_ ? outbox_->thread_ns() : 0; }
 
  private:
   struct Destroy {
     void operator()(lcm_t *lcm) const { lcm_destroy(lcm); }
   };
-  struct Batch {
-    struct Item {
-      const char *channel;  // names outlive the connection
-      std::size_t offset;
-      unsigned length;
-    };
-    std::vector<Item> items;
-    std::vector<std::uint8_t> bytes;
-    void clear();
-    void append(const Batch &other);
-  };
-  void work();
-  void send_all(const Batch &batch);
+  void deliver(const Outbox::Message &message);
   std::unique_ptr<lcm_t, Destroy> lcm_;
-  Batch here_;     // put by; the caller's
-  Batch waiting_;  // under mutex_
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool ends_ = false;  // under mutex_
-  std::atomic<std::int64_t> taken_{0}, published_{0}, dropped_{0}, sender_ns_{0};
-  std::thread thread_;
+  std::atomic<std::int64_t> published_{0}, refused_{0};
+  std::chrono::steady_clock::time_point breath_{};  // the thread's
+  int at_once_ = 0;                                 // the thread's
+  std::unique_ptr<Outbox> outbox_;
 };
 
 }  // namespace hoap2::telemetry

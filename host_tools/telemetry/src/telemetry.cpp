@@ -50,8 +50,6 @@ void hoap2_telemetry_send(hoap2_telemetry_t *telemetry, const char *channel, con
   telemetry->publisher.send(channel, data, length, tick, where);
 }
 
-void hoap2_telemetry_flush(hoap2_telemetry_t *telemetry) { telemetry->publisher.flush(); }
-
 void hoap2_telemetry_counts(const hoap2_telemetry_t *telemetry, hoap2_telemetry_counts_t *counts) {
   telemetry->publisher.counts(counts);
 }

@@ -61,9 +61,6 @@ HOAP2_TELEMETRY_API void hoap2_telemetry_rows(hoap2_telemetry_t *telemetry, int6
 HOAP2_TELEMETRY_API void hoap2_telemetry_send(hoap2_telemetry_t *telemetry, const char *channel,
                                               const void *data, int32_t length, int64_t tick, int32_t where);
 
-/* Writes the log through to the file: what has been sent so far can be read. */
-HOAP2_TELEMETRY_API void hoap2_telemetry_flush(hoap2_telemetry_t *telemetry);
-
 HOAP2_TELEMETRY_API void hoap2_telemetry_counts(const hoap2_telemetry_t *telemetry,
                                                 hoap2_telemetry_counts_t *counts);
 
