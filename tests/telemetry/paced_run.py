@@ -1,6 +1,7 @@
 """A paced run with listeners beside it, in a network of its own: `paced_run.py FOLDER SECONDS`, results as JSON.
 
-Debian's lcm-logger records; a listener counts; with --trouble others come late, hang and die meanwhile.
+Debian's lcm-logger records; a listener counts; with --trouble others come late, hang and die meanwhile. With --first the
+run too goes before everything else on the machine, as on a robot.
 """
 
 from __future__ import annotations
@@ -77,7 +78,7 @@ def compare(logger_file: Path, run_file: Path) -> dict:
             "problems": [p for log in logs for p in log.problems() if "LCM_SELF_TEST" not in p]}  # fmt: skip
 
 
-def main(folder: Path, seconds: float, with_trouble: bool) -> None:
+def main(folder: Path, seconds: float, with_trouble: bool, run_first: bool) -> None:
     os.environ["LCM_DEFAULT_URL"] = URL
     recorded = folder / "recorded.lcm"
     before = first()
@@ -90,7 +91,8 @@ def main(folder: Path, seconds: float, with_trouble: bool) -> None:
     others: list[subprocess.Popen] = []
     try:
         with (folder / "errors").open("w") as errors:
-            run = subprocess.Popen(run_command(folder, seconds), stdout=subprocess.PIPE, stderr=errors, text=True)
+            command = run_command(folder, seconds)[len(ORDINARY) if run_first else 0 :]
+            run = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors, text=True)
             if with_trouble:
                 threading.Thread(target=trouble, args=(others, seconds), daemon=True).start()
             listener = listen_until_end(seconds)
@@ -108,4 +110,4 @@ def main(folder: Path, seconds: float, with_trouble: bool) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), float(sys.argv[2]), "--trouble" in sys.argv)
+    main(Path(sys.argv[1]), float(sys.argv[2]), "--trouble" in sys.argv, "--first" in sys.argv)

@@ -149,7 +149,9 @@ def test_live_without_pace_is_thinned_out_and_the_log_is_not(tmp_path: Path):
     counts = ear.telemetry.counts
     assert counts["decimated"] > 4000 and counts["dropped"] == 0
     slow_and_fast = 2 * 4001 + 2 * 401 + 1  # health once more at the end
-    assert counts["published"] + counts["decimated"] == slow_and_fast + len(rig.of(types.EVENT, rig.read(log_path))) + 2
+    events_and_run = len(rig.of(types.EVENT, rig.read(log_path))) + 2
+    once_a_second = counts["published"] + counts["decimated"] - slow_and_fast - events_and_run
+    assert 0 <= once_a_second < 60, "run_t is repeated by the wall clock"
 
 
 def test_a_full_disk_ends_the_log_and_not_the_run():
