@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gait_cp/footprints.hpp"
+#include "gait_cp/gait_cp.h"
 #include "gait_cp/walk_plan.hpp"
 #include "ideal_robot.hpp"
 #include "random_posture.hpp"
@@ -233,6 +234,28 @@ TEST(Requests, AStartThatIsAskedForWhileTheWalkEndsComesAfterIt) {
   EXPECT_TRUE(stood);
   EXPECT_EQ(robot.out.step_index, 2);
   EXPECT_EQ(robot.out.request_state, HOAP2_REQUEST_STATE_TAKEN);
+}
+
+// Landing position control leaves the feet beside their nominal footprints: the next walk begins where they are.
+TEST(Requests, AWalkBeginsWhereTheFeetStand) {
+  const hoap2_params_t params = standing();
+  hoap2_gait_t gait;
+  hoap2_gait_reset(&params, &gait);
+  for (int foot = 0; foot < 2; ++foot) {
+    gait.foot[foot][0] -= 0.012;
+    gait.foot[foot][1] += 0.005;
+  }
+  gait.com_m[0] -= 0.012;
+  gait.com_m[1] += 0.005;
+  gait.request = {{0.0, 0.0, 0.0}, HOAP2_WALK_REQUEST_WALK};
+  const hoap2_gait_t stood = gait;
+  hoap2_sense_t blind;
+  std::memset(&blind, 0, sizeof blind);
+  hoap2_gait_start(&params, &gait);
+  while (gait.step_index < 3) hoap2_gait_step(&params, &blind, &gait);
+  for (int foot = 0; foot < 2; ++foot)
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(gait.foot[foot][i], stood.foot[foot][i], 1e-12);
+  EXPECT_EQ(gait.drawn_in, 0);
 }
 
 // ---- another step in mid-walk

@@ -13,6 +13,7 @@ from hoap2 import parameters
 from hoap2.signal_log import SignalLog
 from hoap2.telemetry import command_kinds, types
 from hoap2.telemetry.command_desk import KEPT_IDS, MOST_A_SECOND, CommandDesk
+from hoap2.telemetry.listen import Listener
 from hoap2.wiring import log_columns
 
 
@@ -239,3 +240,19 @@ def test_a_run_with_a_silent_desk_is_the_run_without_one():
     listened, _ = rig.run(stepping_controller(), noisy(), 300, None, commands=desk)
     assert plain.error is None and listened.error is None
     assert plain.log.real[:301].tobytes() == listened.log.real[:301].tobytes()
+
+
+def test_packets_that_are_no_commands_are_counted_and_told():
+    """Cut, damaged, of another type: none of them reaches the desk; what came between them does."""
+    desk = Desk()
+    desk.listener = Listener("memq://", [types.COMMAND], desk.take)
+    good = types.type_of(types.COMMAND)()
+    good.run_id, good.command_id, good.kind, good.name = rig.RUN_ID, 9, "walk", "start"
+    whole = good.encode()
+    foreign = types.type_of(types.EVENT)().encode()
+    for data in (whole[:-3], whole[:8], whole + b"x", foreign, b"", b"\xff" * 60, whole):
+        desk.listener._lcm.publish(types.COMMAND, data)
+    desk.poll(40)
+    desk.close()
+    assert [a.accepted for a in desk.telemetry.answers] == [1] and desk.controller.given["walk_request"] == 2
+    assert any("3 malformed and 3 foreign" in note for note in desk.notes()), desk.notes()
