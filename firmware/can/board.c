@@ -10,8 +10,8 @@
 #define TICK_S (1e-6 * HOAP2_TICK_US)
 /* A reference may be a step of its coding beyond what the law allows. */
 #define STEP_RAD HOAP2_RAD_PER_COUNT
-/* Streams that are not sent every tick are given three periods. */
-enum { MISSED_PERIODS = 3, SLOW_SILENCE_TICKS = 200 };
+/* Streams that are not sent every tick are given six periods. */
+enum { MISSED_PERIODS = 6, SLOW_SILENCE_TICKS = 200 };
 
 static const hoap2_can_board_data_t *data_of(const hoap2_can_board_t *board) {
   return &HOAP2_CAN_BOARD[board->board];
@@ -36,8 +36,8 @@ void hoap2_can_board_init(hoap2_can_board_t *board, int index) {
 static int command_limit_ticks(const hoap2_can_board_t *board) {
   const int layout = layout_of(board, HOAP2_CAN_K_COMMAND);
   if (layout < 0) return board->alive_limit_ticks;
-  const int missed = MISSED_PERIODS * HOAP2_CAN_LAYOUT[layout].period_ticks;
-  return missed > board->alive_limit_ticks ? missed : board->alive_limit_ticks;
+  const int period = HOAP2_CAN_LAYOUT[layout].period_ticks;
+  return period > 1 ? MISSED_PERIODS * period : board->alive_limit_ticks;
 }
 
 static int take_beat(hoap2_can_board_t *board, const hoap2_can_message_t *message) {
@@ -70,10 +70,12 @@ static int take_settings(hoap2_can_board_t *board, const hoap2_can_message_t *me
   return HOAP2_CAN_REFUSED_NONE;
 }
 
-/* Inside the joint's stops, and not further from the last reference than the drive can follow. */
-static int command_allowed(hoap2_can_board_t *board, const double q_rad[]) {
+/* Inside the joint's stops, and not further from the last reference than the drive can follow in the time
+ * since then, as it passed here or, for frames that come late one upon the other, at the sender. */
+static int command_allowed(hoap2_can_board_t *board, const double q_rad[], int32_t sent_ticks) {
   const hoap2_can_board_data_t *data = data_of(board);
-  const int32_t elapsed = board->tick > board->command_tick ? board->tick - board->command_tick : 1;
+  const int32_t here_ticks = board->tick - board->command_tick;
+  const int32_t elapsed = here_ticks > sent_ticks ? here_ticks : sent_ticks;
   int allowed = 1;
   for (int j = 0; j < data->joints; ++j) {
     const double *stop_rad = HOAP2_JOINT[data->joint[j]].limit_hard_rad;
@@ -92,15 +94,16 @@ static int take_command(hoap2_can_board_t *board, const hoap2_can_message_t *mes
   const int layout = message->layout;
   const hoap2_can_field_t *field = &HOAP2_CAN_FIELD[HOAP2_CAN_LAYOUT[layout].first_field];
   hoap2_can_track_t track = board->command;
-  if (!hoap2_can_track_take(&track, message->counter, command_limit_ticks(board)))
-    return HOAP2_CAN_REFUSED_COUNTER;
+  const int ahead = hoap2_can_track_take(&track, message->counter, command_limit_ticks(board));
+  if (ahead == 0) return HOAP2_CAN_REFUSED_COUNTER;
   double q_rad[HOAP2_CAN_BOARD_JOINTS];
   const int joints = data_of(board)->joints;
   for (int j = 0; j < joints; ++j) {
     const int at = HOAP2_CAN_COMMAND_FIXED + j * HOAP2_CAN_COMMAND_STRIDE + HOAP2_CAN_COMMAND_J_Q_REF;
     q_rad[j] = hoap2_can_value(&field[at], message->raw[at]);
   }
-  if (!command_allowed(board, q_rad)) return HOAP2_CAN_REFUSED_LIMIT;
+  if (!command_allowed(board, q_rad, ahead * HOAP2_CAN_LAYOUT[layout].period_ticks))
+    return HOAP2_CAN_REFUSED_LIMIT;
   for (int j = 0; j < joints; ++j) {
     const int at = HOAP2_CAN_COMMAND_FIXED + j * HOAP2_CAN_COMMAND_STRIDE + HOAP2_CAN_COMMAND_J_TAU_FF;
     const double peak_Nm = HOAP2_JOINT[data_of(board)->joint[j]].torque_peak_Nm;

@@ -23,6 +23,8 @@ static uint8_t crc_of(uint32_t identifier, const uint8_t data[], int length) {
   return (uint8_t)(crc ^ 0xFF);
 }
 
+int hoap2_can_protocol(void) { return HOAP2_CAN_PROTOCOL; }
+
 int hoap2_can_find(int bus, int kind, int node) {
   if (bus < 0 || bus >= HOAP2_CAN_BUSES || kind < 0 || kind >= HOAP2_CAN_KINDS || node < 0 ||
       node >= HOAP2_CAN_NODES)

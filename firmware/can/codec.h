@@ -24,6 +24,9 @@ typedef struct {
   uint8_t counter;
 } hoap2_can_message_t;
 
+/* HOAP2_CAN_PROTOCOL as it was compiled in. */
+int hoap2_can_protocol(void);
+
 /* Index in HOAP2_CAN_LAYOUT of a message, -1 when the bus does not have it. node: the board's, or 0. */
 int hoap2_can_find(int bus, int kind, int node);
 

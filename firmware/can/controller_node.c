@@ -8,8 +8,8 @@
 enum { FOREIGN_LIMIT = 3, TICK_BITS = 24, SLOW_SILENCE_TICKS = 200 };
 /* Settings that are not answered are sent again after so many ticks: to the board and back takes two. */
 enum { ANSWER_TICKS = 4 };
-/* A stream that does not come every tick counts as there for three of its periods. */
-enum { MISSED_PERIODS = 3 };
+/* A stream that does not come every tick counts as there for six of its periods. */
+enum { MISSED_PERIODS = 6 };
 
 void hoap2_can_controller_init(hoap2_can_controller_t *controller) {
   memset(controller, 0, sizeof *controller);

@@ -25,7 +25,7 @@ COMMANDS = {
     "plot": "signals of a run over time, as a picture",
     "diff": "where two runs part",
     "can": "the CAN buses between processes: dump, send, log, replay, scan",
-    "bench": "what a tick costs in a whole run (run), beside MuJoCo (plant), its telemetry",
+    "bench": "what a tick costs in a whole run (run), beside MuJoCo (plant), its telemetry, CAN",
     "test": "build and run every test (--quick: below five minutes)",
     "generate": "rewrite the generated sources from hoap2.json and signals.toml",
     "fmu": "build or check the four FMUs",

@@ -91,14 +91,15 @@ class Run:
                           xytext=(3, -10), textcoords="offset points", fontsize=8)  # fmt: skip
 
 
-def _stack(rows: int, height_in: float, columns: int = 1, share_y: bool = False):
+def stack(rows: int, height_in: float, columns: int = 1, share_y: bool = False):
+    """Axes below each other with one time axis, in the report's style."""
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(WIDTH_IN, height_in), layout="constrained")
         axes = figure.subplots(rows, columns, sharex=True, sharey=share_y, squeeze=False)
     return figure, axes
 
 
-def _legend(axes) -> None:
+def legend(axes) -> None:
     """Above the axes at the right, where it covers no curve."""
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=6, frameon=False, fontsize=8, borderaxespad=0.2,
                 labelcolor=INK)  # fmt: skip
@@ -109,7 +110,7 @@ def _finish(run: Run, axes_list, bottom) -> None:
         run.marks(axes)
         axes.margins(x=0.0)
         if axes.get_legend_handles_labels()[0]:
-            _legend(axes)
+            legend(axes)
     for axes in bottom:
         axes.set_xlabel("time (s)")
 
@@ -119,7 +120,7 @@ REF = {"color": INK, "linestyle": "--", "linewidth": 0.9, "alpha": 0.8}
 
 def attitude(run: Run) -> Figure:
     """Roll and pitch of the chest over time with step marks, as Fig. 7.10 B."""
-    figure, axes = _stack(2, 4.2)
+    figure, axes = stack(2, 4.2)
     rpy = run.log.block("p.true_chest_rpy_rad")
     for row, (name, color) in enumerate((("roll", RIGHT), ("pitch", LEFT))):
         run.line(axes[row, 0], rpy[:, row] * DEG, "truth", color=color)
@@ -154,7 +155,7 @@ def _taken_footprints(run: Run) -> list[tuple[int, float, float, float]]:
 
 def plane(run: Run) -> Figure:
     """CoM, CoP and footprints seen from above, as Fig. 7.10 C."""
-    figure, grid = _stack(1, 4.0)
+    figure, grid = stack(1, 4.0)
     axes = grid[0, 0]
     plan = walk_plan.footprints(run.scenario.values["controller"], run.scenario.steps_planned)
     for p in plan:
@@ -179,12 +180,12 @@ def plane(run: Run) -> Figure:
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("x, forward (mm)")
     axes.set_ylabel("y, left (mm)")
-    _legend(axes)
+    legend(axes)
     return figure
 
 
 def _plane_signals(run: Run, rows: list[tuple[str, str, dict]], height_in: float = 4.4) -> Figure:
-    figure, axes = _stack(2, height_in)
+    figure, axes = stack(2, height_in)
     for row, axis in enumerate(("x, forward", "y, left")):
         for name, label, style in rows:
             track = run.start_mm(name)
@@ -215,7 +216,7 @@ def capture_point(run: Run) -> Figure:
 
 def forces(run: Run) -> Figure:
     """Vertical force on each foot: truth and the sum of the cells."""
-    figure, axes = _stack(2, 4.0, share_y=True)
+    figure, axes = stack(2, 4.0, share_y=True)
     for row, (foot, key, color) in enumerate((("right", "r", RIGHT), ("left", "l", LEFT))):
         run.line(axes[row, 0], run.column(f"p.true_foot_force_W_N.{key}.z"), "truth", color=color)
         run.line(axes[row, 0], run.column(f"c.foot_force_est_N.{key}"), "force cells", **REF | {"linewidth": 0.6})
@@ -229,7 +230,7 @@ LEG = ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll")
 
 def joints(run: Run) -> Figure:
     """The legs' joint references and true angles."""
-    figure, axes = _stack(len(LEG), 8.4, columns=2)
+    figure, axes = stack(len(LEG), 8.4, columns=2)
     for column, (side, color) in enumerate((("r", RIGHT), ("l", LEFT))):
         for row, joint in enumerate(LEG):
             name = f"{side}_{joint}"
@@ -240,7 +241,7 @@ def joints(run: Run) -> Figure:
                 axes[row, column].plot(*thin(run.t, ref, 350), label="reference", **REF | {"linewidth": 0.6})
             axes[row, column].set_title(f"{name.replace('_', ' ')} (deg)", loc="left", fontsize=9, color=INK)
             axes[row, column].margins(x=0.0)
-    _legend(axes[0, 0])
+    legend(axes[0, 0])
     for a in axes[-1]:
         a.set_xlabel("time (s)")
     return figure
@@ -254,7 +255,7 @@ def torques(run: Run) -> Figure:
     peak = np.array([j["torque_peak_Nm"] for j in table])
     steady = np.array([j["torque_continuous_Nm"] for j in table]) / peak * 100
     largest, rms = tau.max(axis=0) / peak * 100, np.sqrt((tau**2).mean(axis=0)) / peak * 100
-    figure, grid = _stack(1, 3.4)
+    figure, grid = stack(1, 3.4)
     axes, place = grid[0, 0], np.arange(len(table))
     axes.bar(place, largest, color=LEFT, alpha=0.45, label="largest")
     axes.bar(place, rms, color=LEFT, width=0.45, label="rms")
@@ -263,13 +264,13 @@ def torques(run: Run) -> Figure:
     axes.set_xticks(place, [j["name"].replace("_", " ") for j in table], rotation=60, ha="right", fontsize=8)
     axes.set_ylabel("of peak torque (%)")
     axes.margins(x=0.01)
-    _legend(axes)
+    legend(axes)
     return figure
 
 
 def sensing(run: Run) -> Figure:
     """What the robot senses less the truth: attitude, CoP and CoM."""
-    figure, axes = _stack(3, 5.6)
+    figure, axes = stack(3, 5.6)
     rpy = run.log.block("p.true_chest_rpy_rad")
     for index, (name, color) in enumerate((("roll", RIGHT), ("pitch", LEFT))):
         est = run.column(f"c.{name}_est_rad")

@@ -28,14 +28,15 @@ FIGURES = (
 )  # fmt: skip
 
 
-def write(path: Path, scenario: Scenario, log: SignalLog, summary: dict, pictures: dict[str, Path]) -> None:
-    """Write the report; every part is made from the log and the summary of this run."""
+def write(path: Path, scenario: Scenario, log: SignalLog, summary: dict, pictures: dict[str, Path],
+          sections: list[str] | None = None) -> None:  # fmt: skip
+    """Write the report; every part is made from the log and the summary of this run. sections: more of them, as HTML."""
     run = plots.Run(log, scenario)
     parts = [_head(scenario, summary), _verdict(summary), _pictures(pictures), _bounds(summary), "<h2>Plots</h2>"]
     for name, title, caption in FIGURES:
         picture = plots.svg(getattr(plots, name)(run), name)
         parts.append(f"<figure><h3>{escape(title)}</h3>{picture}<figcaption>{escape(caption)}</figcaption></figure>")
-    parts += [_numbers(summary), _parameters(scenario), _timing(summary)]
+    parts += [*(sections or []), _numbers(summary), _parameters(scenario), _timing(summary)]
     title = escape(f"{scenario.name}: {scenario.title}")
     path.write_text(
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'

@@ -137,6 +137,10 @@ def execute(scenario: Scenario, products: Products, folder: RunFolder, stop: mas
     with clock.part("files"):
         folder.text("run.toml", run_toml)
         outcome.log.write(folder.work / "signals.parquet")
+        if scenario.link == "can":
+            from hoap2.can import report as can_report
+
+            can_report.write_ticks(folder.work / can_report.FILE_NAME, outcome.link)
     with clock.part("report"):
         summary = summarise(scenario, outcome) | {"notes": _notes(company)}
         if company.commands is not None:
@@ -146,7 +150,7 @@ def execute(scenario: Scenario, products: Products, folder: RunFolder, stop: mas
     summary |= {"peak_memory_mb": peak_memory_mb(), "wall_s": clock.summary()}
     if outcome.log.count:
         with clock.part("report"):
-            _report(folder, scenario, outcome.log, summary, pictures)
+            _report(folder, scenario, outcome, summary, pictures)
     summary["wall_s"] = clock.summary()
     finished = time.strftime("%Y-%m-%dT%H:%M:%S%z")
     timing = outcome.timing.summary() | _timing_of(company, outcome)
@@ -248,11 +252,17 @@ def _moments(log: SignalLog, count: int = 5) -> list[float]:
     return [first + (last - first) * i / (count - 1) for i in range(count)]
 
 
-def _report(folder: RunFolder, scenario: Scenario, log: SignalLog, summary: dict, pictures: dict[str, Path]) -> None:
+def _report(folder: RunFolder, scenario: Scenario, outcome: master.Outcome, summary: dict,
+            pictures: dict[str, Path]) -> None:  # fmt: skip
     """The report, or a note in the summary why there is none."""
     from hoap2 import report
 
     try:
-        report.write(folder.work / "report.html", scenario, log, summary, pictures)
+        sections = []
+        if scenario.link == "can":
+            from hoap2.can import report as can_report
+
+            sections.append(can_report.section(outcome.link, summary["can"]))
+        report.write(folder.work / "report.html", scenario, outcome.log, summary, pictures, sections)
     except (Exception, KeyboardInterrupt) as error:
         summary["notes"].append(f"no report: {type(error).__name__}: {error}")

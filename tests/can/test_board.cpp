@@ -199,6 +199,18 @@ TEST(Board, RefusesAJumpThatTheDriveCannotFollow) {
   EXPECT_EQ(leg.command(kStart_rad + 0.0047), 0) << "as far as a tick goes";
 }
 
+// The first of three comes late, together with the third: their counters tell that two ticks lie between them.
+TEST(Board, FramesThatComeOneUponTheOtherAreMeasuredByTheirCounters) {
+  Leg leg;
+  leg.start();
+  leg.tick();
+  leg.tick();
+  EXPECT_EQ(leg.command(kStart_rad + 0.0046, 0.0, leg.counter + 1), 0);
+  EXPECT_EQ(leg.command(kStart_rad + 0.0140, 0.0, leg.counter + 3), 0);
+  leg.tick();
+  EXPECT_LE(leg.board.drives.q_ref_rad[0], kStart_rad + 0.00476 + HOAP2_RAD_PER_COUNT) << "the drive is not hurried";
+}
+
 TEST(Board, RefusesStaleCounters) {
   Leg leg;
   leg.start();

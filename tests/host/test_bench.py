@@ -229,3 +229,16 @@ def test_json_of_the_plant_holds_every_figure(hoap2_cli, tmp_path: Path):
     for other in ("dworldstep", "mujoco_implicitfast", "mujoco_euler"):
         assert set(document["ratio"][f"articulated_to_{other}"]) == {"floor", "air"}
     assert Path(document["picture"]).exists()
+
+
+# bench can
+
+
+def test_bench_can_times_the_frames_of_a_tick_and_the_link(hoap2_cli):
+    done = hoap2_cli("bench", "can", "--json", "--repeat", "1")
+    assert done.returncode == 0, done.stderr
+    document = json.loads(done.stdout)
+    assert document["frames"] == 17 and 300 < document["bytes"] < 400
+    codec = document["codec"]
+    assert 0.0 < codec["encode_us"]["median"] < codec["both_us"]["median"]
+    assert 0.0 < codec["decode_us"]["median"] < codec["both_us"]["median"] < document["link_us"]["median"]

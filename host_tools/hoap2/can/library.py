@@ -106,7 +106,7 @@ def load() -> ctypes.CDLL:
         "hoap2_link_state_size": (size_t, [pointer]), "hoap2_link_get_state": (None, [pointer, pointer]),
         "hoap2_link_set_state": (integer, [pointer, pointer, size_t]),
         "hoap2_link_frame_bits": (None, [pointer] * 3),
-        "hoap2_can_find": (integer, [integer] * 3),
+        "hoap2_can_protocol": (integer, []), "hoap2_can_find": (integer, [integer] * 3),
         "hoap2_can_encode": (integer, [integer, ctypes.c_uint8, pointer, pointer]),
         "hoap2_can_decode": (integer, [integer, pointer, pointer]),
     }  # fmt: skip

@@ -127,3 +127,17 @@ def page(
     else:
         benchmark.show(document)
     return 0
+
+
+@app.command()
+def can(repeat: Repeat = 3, json: Json = False) -> int:
+    """The frames of a tick: encoding and decoding them, and the modelled link with its boards and buses."""
+    from hoap2.bench import can as benchmark
+
+    with _status() as status:
+        document = benchmark.run(repeat, status)
+    if json:
+        print(json_module.dumps(document, indent=2))
+    else:
+        benchmark.show(document)
+    return 0
