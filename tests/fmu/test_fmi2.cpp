@@ -328,7 +328,7 @@ TEST(Fmi2, TunableParametersThatDoNotGoTogetherAreRefusedWithTheReason) {
   if (!is_controller()) return;
   fmi2Component c = make_in(STEPPING);
   const unsigned reference = field_named("tpcc_kx_1_s2").first_element;
-  const fmi2Real bad = 10.0, good = 90.0; /* the default of tpcc_kp_1_s2 is 20 */
+  const fmi2Real bad = 10.0, good = 90.0; /* 10 is below tpcc_kp_1_s2 */
   fmi2Real got = 0;
   log_lines.clear();
   EXPECT_EQ(fmi2SetReal(c, &reference, 1, &bad), fmi2Error);
