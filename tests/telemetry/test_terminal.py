@@ -134,6 +134,20 @@ def test_an_end_a_silence_and_a_new_run_are_told(sender, monkeypatch):
     assert "running" in sender.shown()
 
 
+def test_of_two_runs_the_first_is_followed_to_its_end(sender):
+    sender.everything(step_index=11)
+    sender.shown()
+    for _ in range(3):
+        sender.everything(run_id=2, step_index=22)
+        sender.send(types.EVENT, run_id=2, kind="note", text="of the other one")
+        text = sender.shown()
+        assert "11, 0 done" in text and "22, 0 done" not in text and "other one" not in text
+        sender.everything(step_index=11)
+    sender.send(types.EVENT, kind="run_ended", text="done")
+    sender.everything(run_id=2, step_index=22)
+    assert "22, 0 done" in sender.shown()
+
+
 def test_steps_do_not_drive_other_events_away(sender):
     sender.everything()
     sender.send(types.EVENT, kind="command_refused", text="push chest: too hard", time_us=1_000_000)

@@ -23,7 +23,7 @@ class Event:
 
 
 class View:
-    """Follows the run that is heard on a URL. `poll` takes what has come."""
+    """Follows the run that is heard on a URL, until it is over, then the next one. `poll` takes what has come."""
 
     def __init__(self, url: str | None) -> None:
         self.listener = Listener(url, None, self._note, (types.EVENT, types.RUN))
@@ -32,6 +32,8 @@ class View:
         self.end = ""  # how the run ended
         self.runs_seen = 0
         self.rates: dict[str, float] = {}  # messages a second of the wall clock
+        self._own: dict[str, object] = {}  # the last messages of the run that is followed
+        self._heard_s: float | None = None  # when the newest of them came
         self.real_time: float | None = None  # simulated over wall time, of the last period
         self._before: dict[str, int] = {}
         self._before_us: tuple[int | None, int] = (None, 0)  # run, its simulated time
@@ -40,8 +42,8 @@ class View:
     def poll(self, timeout_s: float) -> None:
         self.listener.poll(timeout_s)
         for channel in (types.HEALTH, types.GAIT):  # a late monitor hears these first
-            told = self.latest(channel, any_run=True)
-            if told is not None and self.run_id is None:
+            told = self.listener.latest.get(channel) if self.run_id is None else None
+            if told is not None:
                 self._new_run(told.run_id)
         now = time.monotonic()
         if now - self._measured_s >= RATE_PERIOD_S:
@@ -59,16 +61,20 @@ class View:
             self.real_time = (time_us - us_before) / 1e6 / passed_s
         self._before_us = self.run_id, time_us
 
-    def latest(self, channel: str, any_run: bool = False):
-        """The last message of a channel, of the present run."""
+    def latest(self, channel: str):
+        """The last message of a channel, of the run that is followed."""
         message = self.listener.latest.get(channel)
-        return message if message is None or any_run or message.run_id == self.run_id else None
+        if message is not None and message.run_id == self.run_id and message is not self._own.get(channel):
+            self._own[channel] = message
+            self._heard_s = max(self._heard_s or 0.0, self.listener.last_s[channel])
+        return self._own.get(channel)
 
     @property
     def silent_s(self) -> float | None:
-        """For how long nothing has come; None before the first message."""
-        heard = [t for channel, t in self.listener.last_s.items() if channel in types.CHANNELS]
-        return time.monotonic() - max(heard) if heard else None
+        """For how long nothing has come of this run; None before its first message."""
+        for channel in (types.HEALTH, types.GAIT, types.RUN):
+            self.latest(channel)
+        return None if self._heard_s is None else time.monotonic() - self._heard_s
 
     @property
     def ended(self) -> bool:
@@ -85,7 +91,8 @@ class View:
         self.listener.close()
 
     def _new_run(self, run_id: int) -> None:
-        self.run_id, self.end, self.real_time = run_id, "", None
+        self.run_id, self.end, self.real_time, self._heard_s = run_id, "", None, time.monotonic()
+        self._own.clear()
         self.runs_seen += 1
         self.events.clear()
 
@@ -93,6 +100,8 @@ class View:
         if message.run_id != self.run_id:
             if channel == types.RUN and message.state == message.ENDED:
                 return  # the last words of another one
+            if self.run_id is not None and not self.ended and (self.silent_s or 0.0) < SILENT_S:
+                return  # of two runs at once the first is followed
             self._new_run(message.run_id)
         if channel == types.EVENT:
             text = printable(message.text)
