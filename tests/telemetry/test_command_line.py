@@ -28,7 +28,7 @@ run command walk start --timeout 30 --json >"$OUT/start" 2>&1; echo "start $?"
 run command push chest 0 -4 0 0.05 --json >"$OUT/push" 2>&1; echo "push $?"
 run command push chest 0 -4000 0 0.05 >"$OUT/hard" 2>&1; echo "hard $?"
 run command set tpcc_kp_1_s2 25 --json >"$OUT/set" 2>&1; echo "set $?"
-run monitor --once >"$OUT/monitor" 2>&1; echo "monitor $?"
+COLUMNS=150 LINES=45 run monitor --once >"$OUT/monitor" 2>&1; echo "monitor $?"
 run command step length_m far >"$OUT/bad" 2>&1; echo "bad $?"
 sleep 1.5
 kill -TERM $asked; wait $asked; echo "run $?"
