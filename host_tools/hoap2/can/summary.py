@@ -26,6 +26,12 @@ def _latency(counts: library.Counts) -> dict[str, dict]:
     return out
 
 
+def _state(ticks: np.ndarray) -> str:
+    """The controller's node at the end."""
+    words = can_table.load().raw["enum"]["controller_state"]
+    return words[int(ticks[-1, library.TICK_FIELDS.index("state")])] if len(ticks) else words[0]
+
+
 def summarise(link: CanLink) -> dict:
     """Bus load, latency, losses, refusals, safe modes; percentages of the time of the run."""
     counts, ticks = link.counts(), link.ticks
@@ -50,5 +56,5 @@ def summarise(link: CanLink) -> dict:
         "holds": counts.holds,
         "hold_ticks": counts.hold_ticks,
         "clipped": counts.clipped,
-        "controller_state": can_table.load().raw["enum"]["controller_state"][int(ticks[-1, 5])] if len(ticks) else "boot",
+        "controller_state": _state(ticks),
     }

@@ -170,16 +170,17 @@ def source(table: CanTable) -> str:
     for b in table.boards:
         joints = ", ".join(map(str, b.joints)) or "0"
         foot = int(b.kind == "foot" and b.name.startswith("l_"))
-        boards.append(f"  {{{b.node}, {b.bus}, HOAP2_CAN_BOARD_{b.kind.upper()}, {foot}, {len(b.joints)}, {{{joints}}}}}, "
-                      f"/* {b.name} */")  # fmt: skip
+        boards.append(f"  {{{b.node}, {b.bus}, HOAP2_CAN_BOARD_{b.kind.upper()}, {foot}, {len(b.joints)}, "
+                      f"{{{joints}}}}}, /* {b.name} */")  # fmt: skip
     robot = load_robot()
     inner, outer = robot["servo"]["velocity_loop_1_s"], robot["servo"]["position_loop_1_s"]
-    servo = [f"  {{{number(j['armature_kgm2'] * inner * outer)}, {number(j['armature_kgm2'] * inner)}}}, /* {j['name']} */"
-             for j in robot["joints"]]  # fmt: skip
+    gains = [(j["name"], j["armature_kgm2"] * inner * outer, j["armature_kgm2"] * inner) for j in robot["joints"]]
+    servo = [f"  {{{number(kp)}, {number(kd)}}}, /* {name} */" for name, kp, kd in gains]
     parameters = []
     for p in table.raw["parameter"]:
         low, high = p.get("range", (0.0, 0.0))
-        parameters.append(f"  {{{number(low)}F, {number(high)}F, {int('range' in p)}, {int('each' in p)}}}, /* {p['name']} */")
+        flags = f"{int('range' in p)}, {int('each' in p)}"
+        parameters.append(f"  {{{number(low)}F, {number(high)}F, {flags}}}, /* {p['name']} */")
     crc = ",\n".join("  {" + ", ".join(map(str, s)) + "}" for s in crc_tables(table.raw["crc8_poly"]))
     tables = [
         ("hoap2_can_field_t HOAP2_CAN_FIELD[HOAP2_CAN_FIELDS]", "\n".join(fields)),
@@ -197,7 +198,8 @@ def source(table: CanTable) -> str:
 def disturbances_header(table: CanTable) -> str:
     """The parameters of the modelled link as a C struct: reals first, then ints."""
     rows = sorted(table.disturbances, key=lambda d: d.kind != "real")
-    members = "\n".join(f"  {'double' if d.kind == 'real' else 'int32_t'} {d.name}; /* {d.text} [{d.unit}] */" for d in rows)
+    types = {"real": "double", "int": "int32_t"}
+    members = "\n".join(f"  {types[d.kind]} {d.name}; /* {d.text} [{d.unit}] */" for d in rows)
     checks = " &&\n         ".join(
         f"p->{d.name} >= {number(d.low) if d.kind == 'real' else int(d.low)} && "
         f"p->{d.name} <= {number(d.high) if d.kind == 'real' else int(d.high)}" for d in rows)

@@ -71,5 +71,6 @@ def dbc(table: CanTable, signals: Table, bus: int) -> str:
     bit_rates = [f'BA_ "{name}" {table.raw[key]};' for name, key in
                  (("Baudrate", "nominal_bit_s"), ("BaudrateCANFD", "data_bit_s"))]  # fmt: skip
     parts = ["\n\n".join(_message(f) for f in frames), "", f'CM_ "{about}";', *comments, ATTRIBUTES,
-             f'BA_ "Protocol" {table.protocol};', 'BA_ "BusType" "CAN FD";', *bit_rates, *attributes, *values, *types]  # fmt: skip
+             f'BA_ "Protocol" {table.protocol};', 'BA_ "BusType" "CAN FD";', *bit_rates, *attributes, *values,
+             *types]  # fmt: skip
     return "\n".join([*head, *parts]) + "\n"

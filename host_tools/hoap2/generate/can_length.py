@@ -1,4 +1,4 @@
-"""How long a CAN FD frame is on the bus (ISO 11898-1), to the bit, with the worst stuffing that its payload can have."""
+"""How long a CAN FD frame is on the bus (ISO 11898-1), to the bit, with the worst stuffing that a payload gives it."""
 
 from __future__ import annotations
 

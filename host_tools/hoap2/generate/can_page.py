@@ -42,11 +42,12 @@ def _field_table(kind: Kind, frame: Frame, words: dict) -> list[str]:
         total = field.bits * field.repeat
         where = _bits(bit, total) + (f" + {sum(f.bits for f in kind.each)} j" if field.each else "")
         kind_of = "f32" if field.real else f"{'i' if field.signed else 'u'}{field.bits}"
-        span = "" if field.real or (field.enum and field.bits < 32) else f"{field.low * field.lsb:.6g} ... {field.high * field.lsb:.6g}"
+        span = "" if field.real or field.enum else f"{field.low * field.lsb:.6g} ... {field.high * field.lsb:.6g}"
         named = f" ({', '.join(f'{i} {w}' for i, w in enumerate(words[field.enum]))})" if field.enum else ""
         times = f"{field.repeat} x " if field.repeat > 1 else ""
         unit = "" if field.unit == "1" else field.unit
-        out.append(f"| {where} | {field.name} | {times}{kind_of} | {_step(field.lsb)} | {unit} | {span} | {field.text}{named} |")
+        out.append(f"| {where} | {field.name} | {times}{kind_of} | {_step(field.lsb)} | {unit} | {span} | "
+                   f"{field.text}{named} |")  # fmt: skip
         bit += total
     if kind.each:
         out += ["", "j counts the joints of the board from 0."]
@@ -56,20 +57,21 @@ def _field_table(kind: Kind, frame: Frame, words: dict) -> list[str]:
 def _message(kind: Kind, table: CanTable, words: dict) -> list[str]:
     frames = [f for f in table.frames if f.kind == kind]
     out = [f"## {kind.name}", "", kind.text[0].upper() + kind.text[1:] + ".", "",
-           "| identifier | bus | frame | from | to | bytes | period (ms) | longest (us) |", "|---|---|---|---|---|---|---|---|"]  # fmt: skip
+           "| identifier | bus | frame | from | to | bytes | period (ms) | longest (us) |",
+           "|---|---|---|---|---|---|---|---|"]  # fmt: skip
     for f in frames:
         to = "all" if len(f.receivers) > 1 else f.receivers[0]
         period = f"{f.period_ticks * table.raw['tick_us'] / 1000:g}" if f.period_ticks else "when needed"
-        out.append(f"| 0x{f.identifier:03X} | {table.buses[f.bus]} | {f.name} | {f.sender} | {to} | {f.length} | {period} | "
-                   f"{worst_ns(f, table) / 1000:.1f} |")  # fmt: skip
+        out.append(f"| 0x{f.identifier:03X} | {table.buses[f.bus]} | {f.name} | {f.sender} | {to} | {f.length} | "
+                   f"{period} | {worst_ns(f, table) / 1000:.1f} |")  # fmt: skip
     return [*out, "", *_field_table(kind, frames[0], words), ""]
 
 
 def _load(table: CanTable) -> list[str]:
     limit = table.raw["load_limit"]
     out = ["## Bus load", "",
-           "Each periodic frame at its period, with the most stuff bits that any payload gives it: arbitration, control, payload, "
-           "stuff count, CRC with its fixed stuff bits, acknowledgement, end of frame and intermission, to the bit "
+           "Each periodic frame at its period, with the most stuff bits that any payload gives it: arbitration, control, "
+           "payload, stuff count, CRC with its fixed stuff bits, acknowledgement, end of frame and intermission, to the bit "
            "(`host_tools/hoap2/generate/can_length.py`).", "",
            "| bus | frames a second | average load | limit | busiest millisecond |", "|---|---|---|---|---|"]  # fmt: skip
     for bus, name in enumerate(table.buses):
@@ -77,7 +79,8 @@ def _load(table: CanTable) -> list[str]:
         if load > limit:
             raise ValueError(f"the {name} bus is loaded with {load:.1%}, more than {limit:.0%}")
         rate = sum(1e6 / (f.period_ticks * table.raw["tick_us"]) for f in table.of_bus(bus) if f.period_ticks)
-        out.append(f"| {name} | {rate:.0f} | {100 * load:.1f} % | {100 * limit:.0f} % | {busiest_tick_ns(table, bus) / 1e3:.0f} us |")
+        out.append(f"| {name} | {rate:.0f} | {100 * load:.1f} % | {100 * limit:.0f} % | "
+                   f"{busiest_tick_ns(table, bus) / 1e3:.0f} us |")  # fmt: skip
     return [*out, ""]
 
 
@@ -97,7 +100,8 @@ def page(table: CanTable, signals: Table) -> str:
     for i, p in enumerate(raw["parameter"]):
         span = " ... ".join(f"{v:g}" for v in p["range"]) if "range" in p else "read only"
         out.append(f"| {i} | {p['name']} | {span} | {p['text']}{', of each joint' if 'each' in p else ''} |")
-    out += ["", "## Why a frame is refused", "", "| word | |", "|---|---|", *(f"| {n} | {t} |" for n, t in raw["refusal"].items()), ""]
+    out += ["", "## Why a frame is refused", "", "| word | |", "|---|---|"]
+    out += [*(f"| {name} | {text} |" for name, text in raw["refusal"].items()), ""]
     out += ["## Disturbances of the modelled link", "", "The table `[can]` of a scenario, or `--set can.name=value`.", "",
             "| name | unit | default | range | |", "|---|---|---|---|---|"]  # fmt: skip
     for d in table.disturbances:
