@@ -236,13 +236,13 @@ def test_text_of_the_studies(monkeypatch, tmp_path):
     sand_plot.write(tmp_path / "s", document, rows)
     for sweeps in (sweep.PREDEFINED, [sweep.given(["plant.soil_n=1:1.2:5", "controller.cp_offset_x_m=0.007:0.011:5"])]):
         described = [
-            {"title": s.title, "cells": [{"values": {}, "sand_walk": document["sand_walk"],
+            {"name": s.name, "title": s.title, "cells": [{"values": {}, "sand_walk": document["sand_walk"],
                                           "sand_walk_lpc": document["sand_walk_lpc"]} for _ in s.cells()],
              "axes": [{"name": a.name, "unit": "m", "values": list(a.values), "own": a.values[1]} for a in s.axes]}
             for s in sweeps
         ]  # fmt: skip
         map_plot.write(tmp_path / "m", {"sweeps": described, "scenarios": ["sand-walk", "sand-walk-lpc"]})
-    assert len(figures) == 3
+    assert len(figures) == 4  # the study, all lines, the map among them, the map alone
     for figure in figures:
         check_text(figure)
 
