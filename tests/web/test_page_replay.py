@@ -68,6 +68,7 @@ def test_the_time_line_scrubs_to_the_pose_of_the_log(replay, sand_run: Path) -> 
     assert replay.text("#clock") == f"{replay.probe()['time']:.2f}"
 
 
+@pytest.mark.slow
 def test_a_finished_run_plays_holds_and_changes_speed(replay) -> None:
     _hold_at(replay, 0.0)
     replay.page.select_option("#speed", "0.25")
@@ -100,6 +101,7 @@ def test_the_soil_of_the_page_is_the_replayed_one(replay, sand_run: Path) -> Non
         np.testing.assert_allclose(replay.page.evaluate(heights), at_start.height_m.ravel(), atol=3e-5)
 
 
+@pytest.mark.slow
 def test_plots_follow_the_picked_joints_and_the_stretch(replay, sand_run: Path) -> None:
     _hold_at(replay, 3.0)
     replay.page.select_option("#span", "4")
@@ -115,6 +117,7 @@ def test_plots_follow_the_picked_joints_and_the_stretch(replay, sand_run: Path) 
     assert float(legend.split("waist pitch")[1].split()[0]) == pytest.approx(wanted, abs=0.006)
 
 
+@pytest.mark.slow
 def test_a_damaged_run_is_told_and_the_page_lives_on(monitor, page, sand_run: Path) -> None:
     broken = sand_run.parent / "broken"
     broken.mkdir()

@@ -280,6 +280,8 @@ export class App {
     else this.health.live(status);
     if (!source.live || !this.player.playing) this.events.at(time);
     this.joints.update(track, row);
+    // only the newest ground of a live run is known
+    setText(find('soil-note'), source.live && !this.player.playing ? 'sinkage as it is now' : 'sinkage');
     const why = this.why();
     this.commands.enable(why === '', why);
     this.commands.setHeading(track.count ? heading(track.values(row, 'true_base_quat_W')) : this.yaw());
