@@ -238,7 +238,8 @@ def test_text_of_the_studies(monkeypatch, tmp_path):
         described = [
             {"name": s.name, "title": s.title, "cells": [{"values": {}, "sand_walk": document["sand_walk"],
                                           "sand_walk_lpc": document["sand_walk_lpc"]} for _ in s.cells()],
-             "axes": [{"name": a.name, "unit": "m", "values": list(a.values), "own": a.values[1]} for a in s.axes]}
+             "axes": [{"name": a.name, "unit": "m" if a.name.endswith("_m") else "", "values": list(a.values),
+                       "own": a.values[1]} for a in s.axes]}
             for s in sweeps
         ]  # fmt: skip
         map_plot.write(tmp_path / "m", {"sweeps": described, "scenarios": ["sand-walk", "sand-walk-lpc"]})

@@ -105,7 +105,7 @@ PREDEFINED = (
     _one("soil-law", "Law of the soil", "plant.soil_law", "bekker,rft"),
     _one("rft-zeta", "Resistive forces: ζ", "plant.soil_rft_zeta", "1.4,3,4,5,6,7,8,10", "plant.soil_law=rft"),
     _one("softness", "Soil: k_φ, softer", "plant.soil_kphi_N_m_n2",
-         "x0.6,x0.65,x0.7,x0.75,x0.8,x0.85,x0.9,x1"),
+         "x0.6,x0.7,x0.8,x0.85,x0.9,x1"),
     Sweep("offset-k", "Sagittal offset of the CP, and k_φ",
           (parse("controller.cp_offset_x_m=0.0073,0.0083,0.0093,0.0103,0.0113"), parse("plant.soil_kphi_N_m_n2=x0.8:x1.2:5"))),
 )  # fmt: skip
