@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from hoap2 import cli, parameters
+from hoap2.can import parameters as can_parameters
 
 
 @pytest.fixture
@@ -24,8 +25,8 @@ def test_links_lead_somewhere(readme: str, repo_root: Path):
 def test_commands_and_parameters_exist(readme: str):
     commands = set(re.findall(r"\./hoap2 ([a-z]+)", readme))
     assert "run" in commands and commands <= set(cli.COMMANDS)
-    for product, name in re.findall(r"--set (\w+)\.(\w+)=", readme):
-        assert name in parameters.known(product)
+    for table, name in re.findall(r"--set (\w+)\.(\w+)=", readme):
+        assert name in (can_parameters.known() if table == "can" else parameters.known(table))
 
 
 def test_the_python_example_walks(readme: str):
