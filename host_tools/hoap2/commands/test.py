@@ -18,11 +18,18 @@ def command(
 ) -> int:
     """Build and run the tests: C and C++ (ctest), the same under sanitizers, Python (pytest).
 
+    `test socketcan` runs the tests on Linux CAN sockets in an emulated machine; the full test does so too.
     With -k, files or pytest's own options, only the Python tests run.
     Exit code: 0 all passed, 1 a test failed or none was found.
     """
     from hoap2.testing import run_all, run_pytest
 
+    if (paths or [""])[0] == "socketcan":
+        from hoap2.can.machine import run_tests
+        from hoap2.paths import ROOT
+
+        options = [*(["-k", keyword] if keyword else []), *context.args]
+        return run_tests(paths[1:], ROOT / "build" / "socketcan.xml", options)
     chosen = [*(["-k", keyword] if keyword else []), *(paths or []), *context.args]
     chosen = [word if word.startswith("-") or not Path(word).exists() else str(Path(word).resolve()) for word in chosen]
     if chosen:
