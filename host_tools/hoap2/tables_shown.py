@@ -49,6 +49,14 @@ def falls_as_wanted(summary: dict) -> bool:
     return summary["ok"] and summary["bounds"].get("fell", {}).get("min", 0) == 1
 
 
+def can_line(can: dict) -> str:
+    """Load and losses of a run over CAN."""
+    loads = ", ".join(f"{name} {bus['load_percent']:.1f} %" for name, bus in can["buses"].items())
+    refused = sum((*can["refused_by_controller"].values(), *can["refused_by_boards"].values()))
+    return (f"CAN: load {loads}; {can['lost_percent']:.2g} % of the frames lost, {refused} refused, "
+            f"{can['holds']} safe modes of boards")  # fmt: skip
+
+
 def show_summary(summary: dict, console: Console) -> None:
     """Verdict, bounds and folder of one run."""
     verdict = "[bold green]ok[/]" if summary["ok"] else "[bold red]not ok[/]"
@@ -72,6 +80,8 @@ def show_summary(summary: dict, console: Console) -> None:
             f"{summary['duration_s']:.2f} s simulated at {factor:.2f} x real time; "
             f"controller {medians[0]} us, plant {medians[1]} us a tick", soft_wrap=True,
         )  # fmt: skip
+    if "can" in summary:
+        console.print(can_line(summary["can"]), soft_wrap=True)
     for note in summary.get("notes", []):
         console.print(f"[yellow]note:[/] {note}")
     console.print(f"run folder: {summary['folder']}", soft_wrap=True)

@@ -94,6 +94,7 @@ void bus_queue(BusState *bus, int node, const hoap2_can_frame_t &frame, std::int
 
 void bus_advance(BusState *bus, std::int64_t until_ns, const BusSink &sink) {
   for (int side = 0; side < (bus->cut ? 2 : 1); ++side) run_wire(bus, side, until_ns);
+  if (!bus->cut) bus->free_ns[1] = bus->free_ns[0];
   deliver_due(bus, until_ns, sink);
   bus->now_ns = until_ns;
 }

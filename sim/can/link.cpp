@@ -133,7 +133,9 @@ HOAP2_EXPORT int hoap2_link_set_state(hoap2_link_t *link, const void *state, siz
   LinkState saved;
   if (size != sizeof saved) return 1;
   std::memcpy(static_cast<void *>(&saved), state, sizeof saved);
-  if (saved.magic != kLinkMagic || saved.version != kLinkVersion || saved.size != size) return 1;
+  if (saved.magic != kLinkMagic || saved.version != kLinkVersion || saved.size != size ||
+      !link_is_whole(saved))
+    return 1;
   link->state = saved;
   return 0;
 }

@@ -165,6 +165,47 @@ void link_init(LinkState *link, const hoap2_link_params_t &params, std::uint32_t
   }
 }
 
+namespace {
+
+bool bus_is_whole(const BusState &bus) {
+  // frees in the future or far in the past would make the bus run for a long time
+  for (const std::int64_t free_ns : bus.free_ns) {
+    if (free_ns < 0 || free_ns > bus.now_ns + kTick_ns || bus.now_ns - free_ns > 1000 * kTick_ns)
+      return false;
+  }
+  for (const BusNode &node : bus.node) {
+    if (node.side < 0 || node.side > 1 || node.mode < NodeMode::kActive || node.mode > NodeMode::kOff)
+      return false;
+    for (const BusNode::Mailbox &box : node.box) {
+      if (box.frame.length > HOAP2_CAN_DATA_BYTES) return false;
+    }
+  }
+  for (const BusState::Flight &flight : bus.flight) {
+    if (flight.frame.length > HOAP2_CAN_DATA_BYTES) return false;
+  }
+  return bus.now_ns >= 0 && bus.babbling_node >= -1 && bus.babbling_node < kBusNodes &&
+         (bus.cut == 0 || bus.cut == 1);
+}
+
+bool controller_is_whole(const hoap2_can_controller_t &controller) {
+  return controller.tick >= 0 && controller.request_board >= -1 &&
+         controller.request_board < HOAP2_CAN_BOARDS;
+}
+
+}  // namespace
+
+bool link_is_whole(const LinkState &link) {
+  bool whole = hoap2_link_params_in_range(&link.params) && link.tick >= -kBootTicks && link.sample >= 0 &&
+               controller_is_whole(link.controller) && controller_is_whole(link.second);
+  for (const BusState &bus : link.bus) whole = whole && bus_is_whole(bus);
+  for (int b = 0; b < HOAP2_CAN_BOARDS; ++b) {
+    const hoap2_can_board_t &board = link.board[b];
+    whole = whole && board.board == b && board.tick >= 0 && board.mode >= HOAP2_CAN_BOARD_MODE_BOOT &&
+            board.mode <= HOAP2_CAN_BOARD_MODE_STOPPED;
+  }
+  return whole;
+}
+
 void link_boot(LinkState *link, const hoap2_link_command_t &asked, const hoap2_link_measured_t &measured) {
   if (link->tick >= 0) return;
   hoap2_link_command_t to_plant = {};

@@ -34,6 +34,8 @@ struct LinkState {
 
 static_assert(std::is_trivially_copyable<LinkState>::value, "the state is saved by memcpy");
 
+// A block of bytes that may come from a file: nothing of it is believed that indexes a table or ends a loop.
+bool link_is_whole(const LinkState &link);
 void link_init(LinkState *link, const hoap2_link_params_t &params, std::uint32_t run_seed);
 // Before the first exchange: everyone is switched on, and the robot does not move meanwhile. Later it does
 // nothing.

@@ -203,8 +203,13 @@ TEST(Link, ASavedStateGoesOnTheSame) {
   params.loss = 0.05;
   params.corrupt = 0.05;
   params.delay = 0.05;
+  params.cut_start_s = 0.8;
+  params.cut_s = 0.1;
   Rig rig(params);
-  rig.run(300);
+  for (int i = 0; i < 25; ++i) {
+    rig.run(100);
+    ASSERT_TRUE(link_is_whole(rig.link)) << i;
+  }
   const Rig saved = rig;
   rig.run(300);
   Rig again = saved;
@@ -226,6 +231,20 @@ TEST(Link, RefusesParametersOutOfRangeAndForeignStates) {
   hoap2_link_get_state(link, state.data());
   EXPECT_EQ(hoap2_link_set_state(link, state.data(), state.size()), 0);
   EXPECT_NE(hoap2_link_set_state(link, state.data(), state.size() - 1), 0);
+  const auto damaged = [&](auto &&damage) {
+    LinkState copy;
+    std::memcpy(static_cast<void *>(&copy), state.data(), sizeof copy);
+    damage(&copy);
+    return hoap2_link_set_state(link, &copy, sizeof copy);
+  };
+  EXPECT_NE(damaged([](LinkState *s) { s->params.drop_node = 99; }), 0);
+  EXPECT_NE(damaged([](LinkState *s) { s->bus[1].babbling_node = 16; }), 0);
+  EXPECT_NE(damaged([](LinkState *s) { s->bus[0].node[3].side = 2; }), 0);
+  EXPECT_NE(damaged([](LinkState *s) { s->bus[0].free_ns[0] = -(1LL << 60); }), 0);
+  EXPECT_NE(damaged([](LinkState *s) { s->bus[0].node[1].box[2].frame.length = 200; }), 0);
+  EXPECT_NE(damaged([](LinkState *s) { s->board[4].board = -3; }), 0);
+  EXPECT_NE(damaged([](LinkState *s) { s->controller.request_board = 9; }), 0);
+  EXPECT_EQ(damaged([](LinkState *) {}), 0);
   state[0] = static_cast<char>(state[0] ^ 1);
   EXPECT_NE(hoap2_link_set_state(link, state.data(), state.size()), 0);
   hoap2_link_destroy(link);

@@ -177,10 +177,12 @@ def test_the_run_folder_tells_of_the_link(tmp_path: Path, hoap2_cli):
     done = hoap2_cli("run", "floor-stand", "--link", "can", "--set", "can.loss=0.01", "--duration", "2", "--no-video",
                      "--no-telemetry", "--out", str(folder))  # fmt: skip
     assert done.returncode in (0, 1), done.stderr
+    assert "CAN: load right 5" in done.stdout and "% of the frames lost" in done.stdout
     summary = json.loads((folder / "summary.json").read_text())
     assert summary["link"] == "can" and summary["can"]["lost_percent"] == pytest.approx(1.0, abs=0.3)
     report = (folder / "report.html").read_text()
     assert "<h2>CAN</h2>" in report and "Bus load and losses" in report and "on the way" in report
+    assert "over CAN" in report
     import pyarrow.parquet
 
     table = pyarrow.parquet.read_table(folder / "can.parquet")
