@@ -18,6 +18,7 @@ def document() -> dict:
     table = parameters.table()
     robot = table.robot
     links = [link["name"] for link in robot["links"]]
+    start = parameters.known("controller")
     return {
         "robot": robot["name"],
         "mass_kg": robot["total_mass_kg"],
@@ -29,6 +30,7 @@ def document() -> dict:
         ],
         "joints": [_joint(joint, links) for joint in robot["joints"]],
         "feet": robot["feet"],
+        "rest": {"hip_height_m": start["hip_height_m"].default[0], "q_rad": list(start["posture_rad"].default)},
         "layout": track.layout_json(),
         "enums": table.enums,
         "faults": [{"name": n, "bit": bit, "text": table.fault_texts[n]} for n, bit in table.faults.items()],

@@ -64,6 +64,7 @@ export interface Model {
   }[];
   joints: Joint[];
   feet: { ankle_to_toe_m: number; ankle_to_heel_m: number; half_width_m: number };
+  rest: { hip_height_m: number; q_rad: number[] };
   layout: Entry[];
   enums: Record<string, string[]>;
   faults: { name: string; bit: number; text: string }[];

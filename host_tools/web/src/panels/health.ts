@@ -65,7 +65,7 @@ export class HealthPanel {
       if (parts.length) rows.push([name.replace('HOAP2_', '').toLowerCase(), parts.join(', '), true]);
     }
     if (rows.length === 0) rows.push(['run', 'none yet']);
-    if (status?.url) rows.push(['from', status.url.replace(/^udpm:\/\/|\?.*/g, '')]);
+    if (status?.url && !health) rows.push(['from', status.url.replace(/^udpm:\/\/|\?.*/g, '')]);
     this.show(rows);
     if (this.below.childElementCount) this.below.replaceChildren();
   }

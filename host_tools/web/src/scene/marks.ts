@@ -188,6 +188,7 @@ export class Marks {
 
   set(values: MarkValues, height: (x: number, y: number) => number): void {
     const { com, cop, cp } = values;
+    this.group.visible = true;
     const ground = (mark: THREE.Object3D, x: number, y: number, lift: number): void => {
       mark.visible = Number.isFinite(x) && Number.isFinite(y);
       if (mark.visible) mark.position.set(x, y, height(x, y) + lift);

@@ -47,6 +47,9 @@ export class View3D {
     this.ground = new Ground(software ? 1 : this.renderer.capabilities.getMaxAnisotropy());
     this.robot = new Robot(model, fine, coarse);
     this.marks = new Marks(model);
+    // until something is known
+    this.robot.pose([0, 0, model.rest.hip_height_m], [1, 0, 0, 0], model.rest.q_rad);
+    this.marks.group.visible = false;
     this.scene.add(this.ground.group, this.robot.root, this.marks.group, ...this.lights(software));
     this.applyTier();
     new ResizeObserver(() => this.resize()).observe(holder);
