@@ -142,7 +142,8 @@ def execute(scenario: Scenario, products: Products, folder: RunFolder, stop: mas
 
             can_report.write_ticks(folder.work / can_report.FILE_NAME, outcome.link)
     with clock.part("report"):
-        summary = summarise(scenario, outcome) | {"notes": _notes(company)}
+        summary = summarise(scenario, outcome)
+        summary["notes"] = _notes(company) + (can_summary.notes(summary["can"]) if "can" in summary else [])
         if company.commands is not None:
             summary["commands"] = company.commands.record
     with clock.part("pictures"):

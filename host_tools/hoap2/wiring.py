@@ -43,7 +43,7 @@ class Side(Protocol):
 Place = np.ndarray | slice
 
 
-def _as_slice(index: np.ndarray) -> Place:
+def as_slice(index: np.ndarray) -> Place:
     """A run of neighbours as a slice, which copies faster than a list of places."""
     contiguous = np.array_equal(index, np.arange(index[0], index[0] + index.size))
     return slice(int(index[0]), int(index[0]) + index.size) if contiguous else index
@@ -57,7 +57,7 @@ def _places(source: Side, target: Side) -> dict[str, tuple[Place, Place]]:
         targets = [c.name for c in target.inputs if c.kind == kind]
         pairs = [(i, where[name]) for i, name in enumerate(targets) if name in where]
         if pairs:
-            index_in, index_out = (_as_slice(np.array(index)) for index in zip(*pairs))
+            index_in, index_out = (as_slice(np.array(index)) for index in zip(*pairs))
             places[kind] = (index_in, index_out)
     return places
 

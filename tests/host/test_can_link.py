@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from hoap2 import master, products, runner, scenario
-from hoap2.can import dbc, library
+from hoap2.can import dbc, library, summary
 from hoap2.can.link import CanLink
 from hoap2.can.parameters import defaults
 from hoap2.errors import UserError
@@ -144,9 +144,9 @@ def test_a_controller_without_the_signals_is_refused():
 
 
 def test_floor_walk_over_can_takes_all_steps():
-    summary = light.execute(scenario.load("floor-walk", ["scenario.link=can"]), products.Choice())
-    assert summary["ok"] and summary["steps_taken"] == 36
-    can = summary["can"]
+    done = light.execute(scenario.load("floor-walk", ["scenario.link=can"]), products.Choice())
+    assert done["ok"] and done["steps_taken"] == 36
+    can = done["can"]
     assert can["lost_percent"] == 0.0 and can["holds"] == 0 and can["clipped"] == 0
     assert not can["refused_by_boards"] and not can["refused_by_controller"]
     for bus in can["buses"].values():
@@ -156,8 +156,8 @@ def test_floor_walk_over_can_takes_all_steps():
 
 @pytest.mark.slow
 def test_floor_walk_with_one_percent_of_the_frames_lost():
-    summary = light.execute(scenario.load("floor-walk", ["scenario.link=can", "can.loss=0.01"]), products.Choice())
-    assert summary["ok"] and 0.8 < summary["can"]["lost_percent"] < 1.2
+    done = light.execute(scenario.load("floor-walk", ["scenario.link=can", "can.loss=0.01"]), products.Choice())
+    assert done["ok"] and 0.8 < done["can"]["lost_percent"] < 1.2
 
 
 def test_a_cut_of_50_ms_ends_in_the_crouch_and_nobody_falls():
@@ -172,14 +172,27 @@ def test_a_cut_of_50_ms_ends_in_the_crouch_and_nobody_falls():
     assert holding[:2305].max() == 0 and holding[2306:2350].min() == 9 and holding[-1] == 0
 
 
+@pytest.mark.parametrize(("overrides", "state", "words"), [
+    (["can.second_start_s=1.0"], "doubled", "another controller"),
+    (["can.second_start_s=1.0", "can.second_late_s=0.0"], "run", "bus-off"),
+    (["can.stop_start_s=1.0"], "stopped", "emergency stop"),
+])  # fmt: skip
+def test_a_second_controller_and_the_stop_button_are_told(overrides: list[str], state: str, words: str):
+    outcome = short("scenario.link=can", *overrides, duration_s=1.3)
+    can = summary.summarise(outcome.link)
+    assert can["controller_state"] == state and any(words in note for note in summary.notes(can))
+    assert outcome.log.column("c.fault")[-1] == 2, "the controller knows, and goes to its safe mode"
+    assert outcome.link.ticks[-1, library.TICK_FIELDS.index("holding")] == 9
+
+
 def test_the_run_folder_tells_of_the_link(tmp_path: Path, hoap2_cli):
     folder = tmp_path / "run"
     done = hoap2_cli("run", "floor-stand", "--link", "can", "--set", "can.loss=0.01", "--duration", "2", "--no-video",
                      "--no-telemetry", "--out", str(folder))  # fmt: skip
     assert done.returncode in (0, 1), done.stderr
     assert "CAN: load right 5" in done.stdout and "% of the frames lost" in done.stdout
-    summary = json.loads((folder / "summary.json").read_text())
-    assert summary["link"] == "can" and summary["can"]["lost_percent"] == pytest.approx(1.0, abs=0.3)
+    told = json.loads((folder / "summary.json").read_text())
+    assert told["link"] == "can" and told["can"]["lost_percent"] == pytest.approx(1.0, abs=0.3)
     report = (folder / "report.html").read_text()
     assert "<h2>CAN</h2>" in report and "Bus load and losses" in report and "on the way" in report
     assert "over CAN" in report

@@ -9,18 +9,18 @@ import numpy as np
 
 from hoap2.can import library
 from hoap2.errors import UserError
-from hoap2.wiring import RowCall, Side
+from hoap2.wiring import Place, RowCall, Side, as_slice
 
 __all__ = ["CanLink"]
 
 
-def _places(names: list[str], wanted: list[str], who: str) -> np.ndarray:
+def _places(names: list[str], wanted: list[str], who: str) -> Place:
     where = {name: i for i, name in enumerate(names)}
     missing = [name for name in wanted if name not in where]
     if missing:
         raise UserError(f"the {who} has no {', '.join(missing[:5])}, which the CAN link carries",
                         "both must use the names of docs/generated/signals.md")  # fmt: skip
-    return np.array([where[name] for name in wanted])
+    return as_slice(np.array([where[name] for name in wanted])) if wanted else slice(0, 0)
 
 
 class _Taker:

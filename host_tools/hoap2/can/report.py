@@ -61,6 +61,7 @@ def _events(summary: dict) -> list[list[str]]:
         ["times that a board went to its safe mode", number(summary["holds"])],
         ["ticks in safe mode, summed over the boards", number(summary["hold_ticks"])],
         ["values that the coding could not hold", number(summary["clipped"])],
+        ["worst error state of a node", summary["worst_error_state"]],
         ["controller's node at the end", summary["controller_state"]],
     ]
 

@@ -9,6 +9,8 @@ from hoap2.can import library
 from hoap2.can.link import CanLink
 from hoap2.generate import can_table
 
+ERROR_STATES = ("error active", "error passive", "bus-off")
+
 
 def _named(values, names) -> dict[str, int]:
     """The counts that are not zero, by name."""
@@ -57,4 +59,20 @@ def summarise(link: CanLink) -> dict:
         "hold_ticks": counts.hold_ticks,
         "clipped": counts.clipped,
         "controller_state": _state(ticks),
+        "worst_error_state": ERROR_STATES[int(ticks[:, library.TICK_FIELDS.index("bus_modes")].max())]
+                             if len(ticks) else ERROR_STATES[0],
     }
+
+
+def notes(can: dict) -> list[str]:
+    """What the user should know at once."""
+    said = []
+    if can["controller_state"] == "doubled":
+        said.append("another controller is on the CAN bus: both fell silent, the boards hold; let only one run")
+    if can["controller_state"] == "stopped":
+        said.append("emergency stop over CAN: the drives damp until the power is switched")
+    if can["worst_error_state"] == ERROR_STATES[2]:
+        said.append("a node on the CAN bus was bus-off: many bit errors, or two senders of one identifier")
+    if can["clipped"]:
+        said.append(f"{can['clipped']} values of the controller did not fit their CAN field and were clipped")
+    return said
