@@ -81,7 +81,8 @@ def test_pages_from_elsewhere_are_refused(tmp_path: Path) -> None:
 
         host = f"127.0.0.1:{client.port}"
         foreign = {"Origin": "http://elsewhere.example"}
-        statuses = [(await own(h)).status for h in ({}, {"Origin": f"http://{host}"}, foreign, {"Host": "evil.example"})]
+        headers = ({}, {"Origin": f"http://{host}"}, foreign, {"Host": "evil.example"})
+        statuses = [(await own(each)).status for each in headers]
         try:
             await client.ws_connect("/ws", headers=foreign)
             statuses.append(101)

@@ -12,8 +12,8 @@ import pytest
 
 @pytest.mark.slow
 def test_the_figures_of_the_page_are_there(network, chromium, tmp_path: Path) -> None:
-    done = subprocess.run([*network.enter, sys.executable, "-m", "hoap2.cli", "bench", "page", "--json", "--seconds", "10"],
-                          capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd=tmp_path, timeout=300)  # fmt: skip
+    command = [*network.enter, sys.executable, "-m", "hoap2.cli", "bench", "page", "--json", "--seconds", "10"]
+    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd=tmp_path, timeout=300)
     assert done.returncode == 0, done.stderr
     document = json.loads(done.stdout)
     samples = document["samples"]

@@ -59,6 +59,14 @@ def test_the_push_button_pushes_the_robot(monitor, start, page, tmp_path: Path) 
     page.page.evaluate("monitor.connection.send({command: 'push', name: 'chest', value: [1e6, 0, 0, 0.1]})")
     page.page.wait_for_selector(".answer.refused p")
     assert page.page.locator(".answer.refused p").first.inner_text().strip()
+    # a slider and a button; what the run took is what the slider shows
+    gain = '[data-parameter="tpcc_kp_1_s2"]'
+    page.page.eval_on_selector(gain, "n => { n.value = 31; n.dispatchEvent(new Event('change')); }")
+    page.until(lambda p: "set tpcc_kp_1_s2 31" in page.text("#answers"), "the answer to the slider")
+    assert page.page.input_value(gain) == "31"
+    page.page.click("#walk-stop")
+    page.until(lambda p: "walk stop" in page.text("#answers"), "the answer to the button")
+    assert page.page.locator(".answer.accepted").count() == 3
     run.end(signal.SIGINT)
     force = signal_log.read(tmp_path / "pushed" / "signals.parquet").block("p.true_push_force_W_N")
     assert np.max(force[:, 1]) > 5.9 and np.max(np.abs(force[:, 1])) < 6.1
