@@ -137,16 +137,23 @@ static int take_sync(hoap2_can_board_t *board, const hoap2_can_message_t *messag
   return HOAP2_CAN_REFUSED_NONE;
 }
 
-/* A message that decodes: is it for this board, and from a controller that speaks as we do? */
+/* What a CAN controller's acceptance filter does: the other boards' frames are no business of this one.
+ * Unknown identifiers pass, to be counted. */
+static int concerns(const hoap2_can_board_t *board, const hoap2_can_frame_t *frame) {
+  if (frame->identifier >= HOAP2_CAN_KINDS << HOAP2_CAN_NODE_BITS) return 1;
+  const int index = HOAP2_CAN_LOOKUP[data_of(board)->bus][frame->identifier];
+  if (index < 0) return 1;
+  const hoap2_can_layout_t *layout = &HOAP2_CAN_LAYOUT[index];
+  if (layout->kind == HOAP2_CAN_K_STOP || layout->board == board->board) return 1;
+  return layout->sender == HOAP2_CAN_CONTROLLER_NODE && layout->board < 0;
+}
+
+/* A message that decodes: from a controller that speaks as we do? */
 static int take(hoap2_can_board_t *board, const hoap2_can_message_t *message) {
-  const hoap2_can_layout_t *layout = &HOAP2_CAN_LAYOUT[message->layout];
-  if (layout->sender == data_of(board)->node)
-    return HOAP2_CAN_REFUSED_NODE; /* someone uses our identifiers */
   if (message->kind == HOAP2_CAN_K_STOP) return take_stop(board, message);
-  if (layout->sender != HOAP2_CAN_CONTROLLER_NODE)
-    return HOAP2_CAN_REFUSED_NONE; /* another board's measurements */
+  if (HOAP2_CAN_LAYOUT[message->layout].sender != HOAP2_CAN_CONTROLLER_NODE)
+    return HOAP2_CAN_REFUSED_NODE; /* someone uses our identifiers */
   if (message->kind == HOAP2_CAN_K_BEAT) return take_beat(board, message);
-  if (layout->board >= 0 && layout->board != board->board) return HOAP2_CAN_REFUSED_NONE;
   if (!board->protocol_known) return HOAP2_CAN_REFUSED_VERSION;
   switch (message->kind) {
     case HOAP2_CAN_K_SETTINGS: return take_settings(board, message);
@@ -158,6 +165,7 @@ static int take(hoap2_can_board_t *board, const hoap2_can_message_t *message) {
 }
 
 int hoap2_can_board_receive(hoap2_can_board_t *board, const hoap2_can_frame_t *frame) {
+  if (!concerns(board, frame)) return HOAP2_CAN_REFUSED_NONE;
   hoap2_can_message_t message;
   int reason = hoap2_can_decode(data_of(board)->bus, frame, &message);
   if (reason == HOAP2_CAN_REFUSED_NONE) reason = take(board, &message);

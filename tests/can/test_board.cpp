@@ -1,72 +1,13 @@
-// A board: what it does when all is well, what it refuses, and when it goes to its safe mode.
+// A board: what it does when all is well, and when it goes to its safe mode.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "can/board.h"
-#include "frames.hpp"
-#include "hoap2/generated/robot_model.h"
-#include "hoap2/generated/signals.h"
+#include "leg.hpp"
 
 namespace {
 
-constexpr int kBoard = HOAP2_CAN_B_R_LEG, kBus = 0, kNode = 1, kJoints = 6;
-const double kLsb = HOAP2_RAD_PER_COUNT / 256.0;
-constexpr double kStart_rad = 0.1;
-
-struct Leg {
-  hoap2_can_board_t board;
-  hoap2_can_sensed_t sensed = {};
-  hoap2_can_outbox_t out = {};
-  int counter = 0;
-
-  Leg() {
-    hoap2_can_board_init(&board, kBoard);
-    for (double &q_rad : sensed.q_enc_rad) q_rad = kStart_rad;
-  }
-  int receive(const hoap2_can_frame_t &frame) { return hoap2_can_board_receive(&board, &frame); }
-  void tick() {
-    ++sensed.sample;
-    out.count = 0;
-    hoap2_can_board_tick(&board, &sensed, &out);
-  }
-  int command(double q_rad, double tau_Nm = 0.0, int at_counter = -1) {
-    return receive(can_test::frame_of(
-        kBus, HOAP2_CAN_K_COMMAND, kNode, at_counter < 0 ? counter : at_counter, [&](std::int32_t *raw) {
-          for (int j = 0; j < kJoints; ++j) {
-            raw[2 * j] = static_cast<std::int32_t>(std::lround(q_rad / kLsb));
-            raw[2 * j + 1] = static_cast<std::int32_t>(std::lround(tau_Nm / 0.0002));
-          }
-        }));
-  }
-  int settings(int mode = HOAP2_DRIVE_MODE_POSITION, int scale = 0) {
-    return receive(can_test::frame_of(kBus, HOAP2_CAN_K_SETTINGS, kNode, counter, [&](std::int32_t *raw) {
-      for (int j = 0; j < kJoints; ++j) {
-        raw[4 * j] = mode;
-        raw[4 * j + 1] = scale;
-        raw[4 * j + 2] = 8000;  // 1000 N m/rad
-        raw[4 * j + 3] = 5000;  // 5 N m s/rad
-      }
-    }));
-  }
-  int beat(int protocol = HOAP2_CAN_PROTOCOL) { return receive(can_test::beat(kBus, counter, protocol)); }
-  // One good tick: heartbeat and command, then the board's own.
-  void follow(double q_rad) {
-    ++counter;
-    ASSERT_EQ(beat(), 0);
-    ASSERT_EQ(command(q_rad), 0);
-    tick();
-  }
-  void start() {
-    tick();
-    ++counter;
-    ASSERT_EQ(beat(), 0);
-    ASSERT_EQ(settings(), 0);
-    ASSERT_EQ(command(kStart_rad), 0);
-    tick();
-    ASSERT_EQ(board.mode, HOAP2_CAN_BOARD_MODE_FOLLOW);
-  }
-};
+using namespace can_test;
 
 TEST(Board, HoldsWhereItIsUntilTheControllerComes) {
   Leg leg;
@@ -169,37 +110,8 @@ TEST(Board, ComesBackNoFasterThanTheDrive) {
   EXPECT_LE(ticks, 45);
 }
 
-TEST(Board, RefusesCommandsBeyondTheStopsAndCountsThem) {
-  Leg leg;
-  leg.start();
-  for (const double q_rad :
-       {HOAP2_JOINT[0].limit_hard_rad[1] + 0.01, HOAP2_JOINT[0].limit_hard_rad[0] - 0.01}) {
-    ++leg.counter;
-    leg.beat();
-    EXPECT_EQ(leg.command(q_rad), HOAP2_CAN_REFUSED_LIMIT);
-    leg.tick();
-    EXPECT_NEAR(leg.board.drives.q_ref_rad[0], kStart_rad, kLsb);
-  }
-  EXPECT_EQ(leg.board.refused[HOAP2_CAN_REFUSED_LIMIT], 2U);
-  bool told = false;
-  for (int i = 0; i < leg.out.count; ++i) {
-    hoap2_can_message_t m;
-    ASSERT_EQ(hoap2_can_decode(kBus, &leg.out.frame[i], &m), 0);
-    if (m.kind == HOAP2_CAN_K_STATUS) told = m.raw[HOAP2_CAN_STATUS_J_FAULT] & 1;
-  }
-  EXPECT_TRUE(told);
-}
-
-TEST(Board, RefusesAJumpThatTheDriveCannotFollow) {
-  Leg leg;
-  leg.start();
-  ++leg.counter;
-  leg.beat();
-  EXPECT_EQ(leg.command(kStart_rad + 0.05), HOAP2_CAN_REFUSED_LIMIT);
-  EXPECT_EQ(leg.command(kStart_rad + 0.0047), 0) << "as far as a tick goes";
-}
-
-// The first of three comes late, together with the third: their counters tell that two ticks lie between them.
+// The first of three comes late, together with the third: their counters tell that two ticks lie between
+// them.
 TEST(Board, FramesThatComeOneUponTheOtherAreMeasuredByTheirCounters) {
   Leg leg;
   leg.start();
@@ -208,65 +120,8 @@ TEST(Board, FramesThatComeOneUponTheOtherAreMeasuredByTheirCounters) {
   EXPECT_EQ(leg.command(kStart_rad + 0.0046, 0.0, leg.counter + 1), 0);
   EXPECT_EQ(leg.command(kStart_rad + 0.0140, 0.0, leg.counter + 3), 0);
   leg.tick();
-  EXPECT_LE(leg.board.drives.q_ref_rad[0], kStart_rad + 0.00476 + HOAP2_RAD_PER_COUNT) << "the drive is not hurried";
-}
-
-TEST(Board, RefusesStaleCounters) {
-  Leg leg;
-  leg.start();
-  for (int i = 0; i < 10; ++i) leg.follow(kStart_rad);
-  const auto refused = [&] { return leg.board.refused[HOAP2_CAN_REFUSED_COUNTER]; };
-  EXPECT_EQ(leg.command(kStart_rad, 0.0, leg.counter), HOAP2_CAN_REFUSED_COUNTER) << "again";
-  EXPECT_EQ(leg.command(kStart_rad, 0.0, leg.counter - 3), HOAP2_CAN_REFUSED_COUNTER) << "old";
-  EXPECT_EQ(leg.command(kStart_rad, 0.0, (leg.counter + HOAP2_CAN_COUNTER_WINDOW + 1) & 0xFF),
-            HOAP2_CAN_REFUSED_COUNTER);
-  EXPECT_EQ(leg.receive(can_test::beat(kBus, leg.counter)), HOAP2_CAN_REFUSED_COUNTER);
-  EXPECT_EQ(refused(), 4U);
-}
-
-TEST(Board, RefusesAnotherProtocol) {
-  Leg leg;
-  leg.tick();
-  leg.counter = 1;
-  EXPECT_EQ(leg.command(kStart_rad), HOAP2_CAN_REFUSED_VERSION) << "nobody said which protocol";
-  EXPECT_EQ(leg.beat(HOAP2_CAN_PROTOCOL ^ 1), HOAP2_CAN_REFUSED_VERSION);
-  EXPECT_EQ(leg.settings(), HOAP2_CAN_REFUSED_VERSION);
-  leg.tick();
-  EXPECT_EQ(leg.board.mode, HOAP2_CAN_BOARD_MODE_BOOT);
-  EXPECT_EQ(leg.board.refused[HOAP2_CAN_REFUSED_VERSION], 3U);
-  Leg other;
-  other.start();
-  ++other.counter;
-  EXPECT_EQ(other.beat(HOAP2_CAN_PROTOCOL ^ 1), HOAP2_CAN_REFUSED_VERSION);
-  EXPECT_EQ(other.command(kStart_rad), HOAP2_CAN_REFUSED_VERSION) << "the controller was exchanged";
-}
-
-TEST(Board, RefusesItsOwnIdentifiersAndLetsOthersPass) {
-  Leg leg;
-  leg.start();
-  const auto nothing = [](std::int32_t *) {};
-  EXPECT_EQ(leg.receive(can_test::frame_of(kBus, HOAP2_CAN_K_STATUS, kNode, 9, nothing)),
-            HOAP2_CAN_REFUSED_NODE);
-  EXPECT_EQ(leg.receive(can_test::frame_of(kBus, HOAP2_CAN_K_STATUS, 2, 9, nothing)), 0);
-  EXPECT_EQ(leg.receive(can_test::frame_of(kBus, HOAP2_CAN_K_COMMAND, 2, 9, nothing)), 0) << "for the arm";
-  EXPECT_NEAR(leg.board.drives.q_ref_rad[0], kStart_rad, kLsb);
-  hoap2_can_frame_t frame = can_test::beat(kBus, 99);
-  frame.identifier = 0x2E6;  // the answer of the left leg does not exist on the right bus
-  EXPECT_EQ(leg.receive(frame), HOAP2_CAN_REFUSED_UNKNOWN);
-}
-
-TEST(Board, EmergencyStopDampsUntilThePowerIsSwitched) {
-  Leg leg;
-  leg.start();
-  EXPECT_EQ(leg.receive(can_test::frame_of(kBus, HOAP2_CAN_K_STOP, 2, 0, [](std::int32_t *) {})), 0)
-      << "from the arm";
-  leg.tick();
-  for (int i = 0; i < 30; ++i) leg.follow(kStart_rad);
-  EXPECT_EQ(leg.board.mode, HOAP2_CAN_BOARD_MODE_STOPPED);
-  EXPECT_EQ(leg.board.drives.drive_mode[0], HOAP2_DRIVE_MODE_DAMPED_TORQUE);
-  EXPECT_EQ(leg.board.drives.tau_ff_Nm[0], 0.0);
-  hoap2_can_board_init(&leg.board, kBoard);
-  EXPECT_EQ(leg.board.mode, HOAP2_CAN_BOARD_MODE_BOOT);
+  EXPECT_LE(leg.board.drives.q_ref_rad[0], kStart_rad + 0.00476 + HOAP2_RAD_PER_COUNT)
+      << "the drive is not hurried";
 }
 
 TEST(Board, ParametersAreReadWrittenAndRefused) {
