@@ -14,7 +14,7 @@ from hoap2.can import unix_bus
 from hoap2.errors import UserError, nearest
 
 CAN_LINK_TYPE = "280"  # ARPHRD_CAN
-MULTICAST_CHANNEL = "239.74.163.2"
+MULTICAST_CHANNEL, MULTICAST_PORT = "239.74.163.2", 43113
 DEFAULT_CHANNELS = {"hoap2_unix": "hoap2", "socketcan": "vcan0", "udp_multicast": MULTICAST_CHANNEL, "virtual": "hoap2"}
 # IPv6, and frames that leave the machine, are python-can's defaults; neither is wanted here.
 OPTIONS = {
@@ -80,6 +80,14 @@ def _works_here() -> str:
     return "these work here: " + ", ".join(name for name, why in available().items() if not why)
 
 
+def multicast_port(channel: str) -> int:
+    """The port of GROUP or GROUP:PORT."""
+    _, colon, port = channel.partition(":")
+    if colon and not (port.isdecimal() and 0 < int(port) < 65536):
+        raise UserError(f"'{channel}' is not GROUP:PORT", f"such as {MULTICAST_CHANNEL}:{MULTICAST_PORT}")
+    return int(port) if colon else MULTICAST_PORT
+
+
 def open_bus(interface: str, channel: str | None = None, options: Mapping[str, object] | None = None) -> can.BusABC:
     """A node on a bus of any interface of python-can; CAN FD where the interface has it.
 
@@ -95,6 +103,8 @@ def open_bus(interface: str, channel: str | None = None, options: Mapping[str, o
     if why:
         raise UserError(f"{interface} does not work here: {why}", _works_here())
     arguments = {**OPTIONS.get(interface, {}), **(options or {})}
+    if interface == "udp_multicast":
+        arguments["port"], channel = multicast_port(channel), channel.partition(":")[0]
     try:
         return can.Bus(interface=interface, channel=channel, ignore_config=True, **arguments)
     except (can.CanError, OSError, ValueError, TypeError, ImportError) as error:

@@ -110,6 +110,16 @@ def load() -> ctypes.CDLL:
         "hoap2_can_encode": (integer, [integer, ctypes.c_uint8, pointer, pointer]),
         "hoap2_can_decode": (integer, [integer, pointer, pointer]),
     }  # fmt: skip
+    for end in ("controller", "boards"):
+        signatures |= {
+            f"hoap2_{end}_end_create": (pointer, []), f"hoap2_{end}_end_destroy": (None, [pointer]),
+            f"hoap2_{end}_end_receive": (integer, [pointer, integer, pointer]),
+            f"hoap2_{end}_end_health": (None, [pointer] * 2),
+        }  # fmt: skip
+    signatures |= {
+        "hoap2_controller_end_send": (None, [pointer] * 3), "hoap2_controller_end_inputs": (None, [pointer] * 2),
+        "hoap2_boards_end_tick": (None, [pointer, pointer, integer, pointer, pointer]),
+    }  # fmt: skip
     for name, (result, arguments) in signatures.items():
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments

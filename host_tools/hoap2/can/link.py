@@ -36,7 +36,7 @@ class _Taker:
         self.block.integer[:] = self.integer[k][self.index["int"]]
 
 
-class _Giver:
+class Giver:
     """Copies from a block of the link into the inputs of a side; its other inputs are left as they are."""
 
     def __init__(self, side: Side, block: library.Block) -> None:
@@ -89,7 +89,7 @@ class CanLink:
         """What sets the inputs of controller and plant from row k of their outputs, in this order."""
         asked = _Taker(controller, self.asked, *of_controller, "controller")
         measured = _Taker(plant, self.measured, *of_plant, "plant")
-        to_controller, to_plant = _Giver(controller, self.to_controller), _Giver(plant, self.to_plant)
+        to_controller, to_plant = Giver(controller, self.to_controller), Giver(plant, self.to_plant)
 
         def set_controller(k: int) -> None:
             asked.take(k)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -126,7 +126,8 @@ class Messages:
                            is_fd=self.fd, bitrate_switch=self.fd)  # fmt: skip
 
     def unknown(self, name: str) -> UserError:
-        return UserError(f"no message '{name}'", nearest(name, self.by_name) or "./hoap2 can scan --messages lists them")
+        near = nearest(name, self.by_name)
+        return UserError(f"no message '{name}'", near or "./hoap2 can scan --messages lists them")
 
     @cached_property
     def fd(self) -> bool:
@@ -156,7 +157,7 @@ def parse(text: str) -> can.Message:
     """A frame in candump's notation: 123#DEADBEEF, 12345678#R8, 123##1 and data for CAN FD (1: fast data)."""
     found = _FRAME.fullmatch(text)
     if not found:
-        raise UserError(f"'{text}' is not a frame", "frames: 061#DEADBEEF, 12345678#R8 (remote), 061##1DEADBEEF (CAN FD)")
+        raise UserError(f"'{text}' is not a frame", "such as 061#DEADBEEF, 12345678#R8 (remote), 061##1DEAD (CAN FD)")
     identifier, remote, dlc, flags, fd_data, data = found.groups()
     common = {"arbitration_id": int(identifier, 16), "is_extended_id": len(identifier) == 8}
     if common["arbitration_id"] > (0x1FFFFFFF if common["is_extended_id"] else 0x7FF):
@@ -175,3 +176,27 @@ def parse(text: str) -> can.Message:
     bits = int(flags, 16) if flags else 0
     return can.Message(**common, data=octets, is_fd=bool(flags), bitrate_switch=bool(bits & 1),
                        error_state_indicator=bool(bits & 2))  # fmt: skip
+
+
+def rounds(words: list[str], dbc: list[Path] | None) -> Callable[[int], list[can.Message]]:
+    """Round number -> its frames: in candump's notation, or one by NAME signal=value ..., its counter going on."""
+    if "#" in words[0]:
+        parsed = [parse(word) for word in words]
+        return lambda _i: parsed
+    table, values = load(dbc), {}
+    for word in words[1:]:
+        name, equals, value = word.partition("=")
+        if not equals:
+            raise UserError(f"'{word}' is not signal=value")
+        try:
+            values[name] = float(value)
+        except ValueError:
+            values[name] = value  # a word of the DBC's value table
+    first = values.get(COUNTER, 0)
+
+    def numbered(i: int):
+        own = COUNTER in [s.name for s in table.by_name[words[0]].signals]
+        return [table.encode(words[0], {**values, COUNTER: (first + i) % 256} if own else values)]
+
+    table.encode(words[0], values)  # before the bus is opened
+    return numbered
