@@ -125,7 +125,7 @@ TEST(SoilFlow, FilledRutIsLoose) {
   EXPECT_NEAR(0.004, rut.memory_m, 1e-4);
   law.lay(&rut, 0.003);
   EXPECT_NEAR(bottom_m + 0.005, rut.surface_m(), 1e-17);
-  EXPECT_NEAR(0.001, rut.memory_m, 1e-4);
+  EXPECT_NEAR(0.001, rut.memory_m, 2e-4);  // less the rebound
   law.lay(&rut, 0.004);
   EXPECT_NEAR(bottom_m + 0.009, rut.surface_m(), 1e-17);
   EXPECT_EQ(0.0, rut.memory_m);
