@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import shutil
 import signal
 import subprocess
@@ -12,8 +13,10 @@ from pathlib import Path
 import can
 import pytest
 
-from hoap2.can import interfaces, messages, traffic
+from hoap2.can import interfaces, library, messages, traffic
+from hoap2.can.ends import to_frame
 from hoap2.errors import UserError
+from hoap2.generate import can_table
 
 
 @pytest.fixture
@@ -77,6 +80,15 @@ def test_send_by_name_and_in_candumps_notation(hoap2_cli, channel: str, bus, tab
     assert [m.data[1] for m in got[:2]] == [0, 1]  # our counter
     assert bytes(got[2].data) == b"\xde\xad" and got[3].is_remote_frame and got[3].dlc == 4
     assert got[4].is_fd and got[4].bitrate_switch and len(got[4].data) == 12
+
+
+@pytest.mark.parametrize("name", ["beat", "command_waist", "cells_l_foot", "settings_l_leg"])
+def test_the_firmware_takes_what_is_encoded_by_name(name: str, table):
+    frame = to_frame(table.encode(name, {"counter": 7}))
+    bus = next(f.bus for f in can_table.load().frames if f.name == name)
+    message = library.Message()
+    assert library.load().hoap2_can_decode(bus, ctypes.byref(frame), ctypes.byref(message)) == 0
+    assert message.counter == 7
 
 
 @pytest.mark.parametrize(("text", "told"), [
