@@ -3,6 +3,7 @@
 
 #include "headers/fmi3Functions.h"
 #include "instance.h"
+#include "network.h"
 
 static fmi3Status status_of(hoap2_fmu_status_t status) { return status == HOAP2_FMU_OK ? fmi3OK : fmi3Error; }
 
@@ -46,14 +47,21 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String ins
   if (!self) return NULL;
   bool ok = true;
   if (name[0] == '\0') ok = hoap2_fmu_error(self, "the instance has no name") == HOAP2_FMU_OK;
-  if (eventModeUsed) ok = hoap2_fmu_error(self, "event mode is not offered") == HOAP2_FMU_OK;
+  self->event_mode_used = eventModeUsed && hoap2_network_present();
+  if (eventModeUsed && !hoap2_network_present()) {
+    ok = hoap2_fmu_error(self, "event mode is not offered") == HOAP2_FMU_OK;
+  }
+  if (!eventModeUsed && hoap2_network_present()) {
+    hoap2_fmu_log(self, HOAP2_FMU_LOG_WARNING,
+                  "instantiated without event mode: the bus terminals are dormant, signals go by the variables");
+  }
   if (nRequiredIntermediateVariables > 0) {
     ok = hoap2_fmu_error(self, "intermediate updates are not offered") == HOAP2_FMU_OK;
   }
-  if (!instantiationToken || strcmp(instantiationToken, HOAP2_FMU_PRODUCT.token) != 0) {
+  if (!instantiationToken || strcmp(instantiationToken, hoap2_network_token()) != 0) {
     ok = hoap2_fmu_error(self, "instantiation token %s is not this FMU's %s",
                          instantiationToken ? instantiationToken : "(null)",
-                         HOAP2_FMU_PRODUCT.token) == HOAP2_FMU_OK;
+                         hoap2_network_token()) == HOAP2_FMU_OK;
   }
   if (ok) return self;
   hoap2_fmu_free(self);
@@ -78,7 +86,7 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
 }
 
 fmi3Status fmi3Terminate(fmi3Instance instance) {
-  REQUIRE(instance, HOAP2_FMU_STEPPING);
+  REQUIRE(instance, HOAP2_FMU_RUNNING);
   ((hoap2_fmu_instance_t *)instance)->mode = HOAP2_FMU_TERMINATED;
   return fmi3OK;
 }
@@ -161,11 +169,11 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
                       fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
   (void)noSetFMUStatePriorToCurrentPoint;
   REQUIRE(instance, HOAP2_FMU_STEPPING);
-  if (eventHandlingNeeded) *eventHandlingNeeded = fmi3False;
   if (terminateSimulation) *terminateSimulation = fmi3False;
   if (earlyReturn) *earlyReturn = fmi3False;
   const hoap2_fmu_status_t status =
       hoap2_fmu_do_step(instance, currentCommunicationPoint, communicationStepSize);
+  if (eventHandlingNeeded) *eventHandlingNeeded = hoap2_network_tick_is_due(instance);
   if (lastSuccessfulTime) *lastSuccessfulTime = hoap2_fmu_time_s(instance);
   return status_of(status);
 }

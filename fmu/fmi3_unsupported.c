@@ -1,16 +1,10 @@
-/* What FMI 3.0 has and these FMUs do not: importers bind every function at load, so each
+/* What FMI 3.0 has and none of these FMUs does: importers bind every function at load, so each
  * one exists and says why it refuses.
  */
-#include "headers/fmi3Functions.h"
-#include "instance.h"
+#include "fmi3_refuse.h"
 
 /* the whole file is about arguments that nobody looks at */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
-
-static fmi3Status refuse(fmi3Instance instance, const char *call, const char *why) {
-  if (instance) hoap2_fmu_error(instance, "%s: %s", call, why);
-  return fmi3Error;
-}
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String instantiationToken,
                                           fmi3String resourcePath, fmi3Boolean visible, fmi3Boolean loggingOn,
@@ -35,11 +29,6 @@ fmi3Instance fmi3InstantiateScheduledExecution(
 
 /* --- types without variables: only the empty list is right --- */
 
-static fmi3Status no_such_type(fmi3Instance instance, const char *call, unsigned modes, size_t count) {
-  if (!hoap2_fmu_allowed(instance, call, modes)) return fmi3Error;
-  return count == 0 ? fmi3OK : refuse(instance, call, "there are no variables of this type");
-}
-
 #define NO_VARIABLES(type)                                                                             \
   fmi3Status fmi3Get##type(fmi3Instance instance, const fmi3ValueReference references[], size_t count, \
                            fmi3##type values[], size_t value_count) {                                  \
@@ -61,106 +50,59 @@ NO_VARIABLES(UInt64)
 NO_VARIABLES(Boolean)
 NO_VARIABLES(String)
 
-fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                         size_t nValueReferences, size_t valueSizes[], fmi3Binary values[], size_t nValues) {
-  return no_such_type(instance, __func__, HOAP2_FMU_CAN_GET, nValueReferences);
-}
-
-fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                         size_t nValueReferences, const size_t valueSizes[], const fmi3Binary values[],
-                         size_t nValues) {
-  return no_such_type(instance, __func__, HOAP2_FMU_CAN_SET, nValueReferences);
-}
-
-fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                        size_t nValueReferences, fmi3Clock values[]) {
-  return no_such_type(instance, __func__, HOAP2_FMU_CAN_GET, nValueReferences);
-}
-
-fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                        size_t nValueReferences, const fmi3Clock values[]) {
-  return no_such_type(instance, __func__, HOAP2_FMU_CAN_SET, nValueReferences);
-}
-
-/* --- configuration and event mode --- */
+/* --- configuration mode --- */
 
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) {
-  return refuse(instance, __func__, "there is neither configuration nor event mode");
+  return refuse(instance, __func__, "there is no configuration mode");
 }
 
 fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) {
-  return refuse(instance, __func__, "there is neither configuration nor event mode");
-}
-
-fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
-  return refuse(instance, __func__, "there is neither configuration nor event mode");
-}
-
-fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
-  return refuse(instance, __func__, "there is neither configuration nor event mode");
-}
-
-fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance) {
-  return refuse(instance, __func__, "there is neither configuration nor event mode");
-}
-
-fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate,
-                                    fmi3Boolean *terminateSimulation,
-                                    fmi3Boolean *nominalsOfContinuousStatesChanged,
-                                    fmi3Boolean *valuesOfContinuousStatesChanged,
-                                    fmi3Boolean *nextEventTimeDefined, fmi3Float64 *nextEventTime) {
-  return refuse(instance, __func__, "there is neither configuration nor event mode");
+  return refuse(instance, __func__, "there is no configuration mode");
 }
 
 /* --- clocks --- */
 
-fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                                  size_t nValueReferences, fmi3Float64 intervals[],
-                                  fmi3IntervalQualifier qualifiers[]) {
-  return refuse(instance, __func__, "there are no clocks");
-}
-
 fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                    size_t nValueReferences, fmi3UInt64 counters[], fmi3UInt64 resolutions[],
                                    fmi3IntervalQualifier qualifiers[]) {
-  return refuse(instance, __func__, "there are no clocks");
+  return refuse(instance, __func__, "there are no clocks of this kind");
 }
 
 fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                size_t nValueReferences, fmi3Float64 shifts[]) {
-  return refuse(instance, __func__, "there are no clocks");
+  return refuse(instance, __func__, "there are no clocks of this kind");
 }
 
 fmi3Status fmi3GetShiftFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                 size_t nValueReferences, fmi3UInt64 counters[], fmi3UInt64 resolutions[]) {
-  return refuse(instance, __func__, "there are no clocks");
+  return refuse(instance, __func__, "there are no clocks of this kind");
 }
 
 fmi3Status fmi3SetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                   size_t nValueReferences, const fmi3Float64 intervals[]) {
-  return refuse(instance, __func__, "there are no clocks");
+  return refuse(instance, __func__, "there are no clocks of this kind");
 }
 
 fmi3Status fmi3SetIntervalFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                    size_t nValueReferences, const fmi3UInt64 counters[],
                                    const fmi3UInt64 resolutions[]) {
-  return refuse(instance, __func__, "there are no clocks");
+  return refuse(instance, __func__, "there are no clocks of this kind");
 }
 
 fmi3Status fmi3SetShiftDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                size_t nValueReferences, const fmi3Float64 shifts[]) {
-  return refuse(instance, __func__, "there are no clocks");
+  return refuse(instance, __func__, "there are no clocks of this kind");
 }
 
 fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                 size_t nValueReferences, const fmi3UInt64 counters[],
                                 const fmi3UInt64 resolutions[]) {
-  return refuse(instance, __func__, "there are no clocks");
+  return refuse(instance, __func__, "there are no clocks of this kind");
 }
 
 fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clockReference,
                                       fmi3Float64 activationTime) {
-  return refuse(instance, __func__, "there are no clocks");
+  return refuse(instance, __func__, "there are no clocks of this kind");
 }
 
 /* --- dependencies and derivatives --- */

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "network.h"
+
 static const char *const CATEGORY_NAMES[HOAP2_FMU_LOG_CATEGORIES] = {"logStatusError", "logStatusWarning",
                                                                      "logEvents"};
 /* Communication points that an importer adds up in floating point may be off by this part of a tick. */
@@ -25,6 +27,10 @@ hoap2_fmu_instance_t *hoap2_fmu_create(const char *name, hoap2_fmu_emit_t emit, 
   self->model = hoap2_product_create();
   self->trial_params = calloc(1, HOAP2_FMU_PRODUCT.group_size[HOAP2_FMU_PARAMETER]);
   bool complete = self->name && self->model && self->trial_params;
+  if (hoap2_network_present()) {
+    self->network = calloc(1, hoap2_network_size());
+    complete = complete && self->network;
+  }
   for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) {
     self->group[g] = calloc(1, HOAP2_FMU_PRODUCT.group_size[g]);
     complete = complete && self->group[g];
@@ -44,6 +50,7 @@ void hoap2_fmu_free(hoap2_fmu_instance_t *self) {
   for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) free(self->group[g]);
   free(self->trial_params);
   free(self->undo);
+  free(self->network);
   free(self->name);
   free(self);
 }
@@ -100,6 +107,7 @@ bool hoap2_fmu_allowed(hoap2_fmu_instance_t *self, const char *call, unsigned mo
   const char *where = self->mode == HOAP2_FMU_INSTANTIATED   ? "before initialisation"
                       : self->mode == HOAP2_FMU_INITIALISING ? "in initialisation"
                       : self->mode == HOAP2_FMU_STEPPING     ? "between steps"
+                      : self->mode == HOAP2_FMU_EVENT        ? "in event mode"
                                                              : "after termination";
   hoap2_fmu_error(self, "%s is not allowed %s", call, where);
   return false;
@@ -137,7 +145,8 @@ hoap2_fmu_status_t hoap2_fmu_prepare(hoap2_fmu_instance_t *self) {
 
 hoap2_fmu_status_t hoap2_fmu_exit_initialisation(hoap2_fmu_instance_t *self) {
   if (hoap2_fmu_prepare(self) != HOAP2_FMU_OK) return HOAP2_FMU_ERROR;
-  self->mode = HOAP2_FMU_STEPPING;
+  self->mode = self->event_mode_used ? HOAP2_FMU_EVENT : HOAP2_FMU_STEPPING;
+  hoap2_network_start(self);
   hoap2_fmu_log(self, HOAP2_FMU_LOG_EVENT, "initialised at %g s", self->start_time_s);
   return HOAP2_FMU_OK;
 }
@@ -150,11 +159,13 @@ void hoap2_fmu_reset(hoap2_fmu_instance_t *self) {
   self->stop_time_s = (double)INFINITY;
   self->tick = 0;
   self->model_ready = false;
+  if (self->network) memset(self->network, 0, hoap2_network_size());
 }
 
 static double tick_s(void) { return (double)HOAP2_FMU_PRODUCT.tick_us / 1e6; }
 
 double hoap2_fmu_time_s(const hoap2_fmu_instance_t *self) {
+  if (self->event_mode_used) return hoap2_network_time_s(self);
   return self->start_time_s + (double)(self->tick * HOAP2_FMU_PRODUCT.tick_us) / 1e6;
 }
 
@@ -195,6 +206,7 @@ static bool keep_undo(hoap2_fmu_instance_t *self) {
 }
 
 hoap2_fmu_status_t hoap2_fmu_do_step(hoap2_fmu_instance_t *self, double now_s, double step_s) {
+  if (self->event_mode_used) return hoap2_network_do_step(self, now_s, step_s);
   const int64_t ticks = ticks_of_step(self, now_s, step_s);
   if (ticks == 0) return HOAP2_FMU_ERROR;
   /* one tick keeps its own state when it fails; several are undone together */

@@ -8,18 +8,24 @@
 
 #include "product.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Where an instance stands; bits, so that a call can name all states that allow it. */
 typedef enum {
   HOAP2_FMU_INSTANTIATED = 1,
   HOAP2_FMU_INITIALISING = 2,
   HOAP2_FMU_STEPPING = 4,
-  HOAP2_FMU_TERMINATED = 8
+  HOAP2_FMU_TERMINATED = 8,
+  HOAP2_FMU_EVENT = 16 /* FMI 3.0 with bus terminals: event mode */
 } hoap2_fmu_mode_t;
 
 enum {
-  HOAP2_FMU_CAN_GET = HOAP2_FMU_INITIALISING | HOAP2_FMU_STEPPING | HOAP2_FMU_TERMINATED,
-  HOAP2_FMU_CAN_SET = HOAP2_FMU_INSTANTIATED | HOAP2_FMU_INITIALISING | HOAP2_FMU_STEPPING,
-  HOAP2_FMU_ANY_MODE = 15
+  HOAP2_FMU_RUNNING = HOAP2_FMU_STEPPING | HOAP2_FMU_EVENT,
+  HOAP2_FMU_CAN_GET = HOAP2_FMU_INITIALISING | HOAP2_FMU_RUNNING | HOAP2_FMU_TERMINATED,
+  HOAP2_FMU_CAN_SET = HOAP2_FMU_INSTANTIATED | HOAP2_FMU_INITIALISING | HOAP2_FMU_RUNNING,
+  HOAP2_FMU_ANY_MODE = 31
 };
 
 typedef enum { HOAP2_FMU_OK = 0, HOAP2_FMU_ERROR = 1 } hoap2_fmu_status_t;
@@ -44,6 +50,7 @@ typedef struct hoap2_fmu_instance {
   bool logging_on;
   unsigned categories; /* bit of each category that is let through */
   hoap2_fmu_mode_t mode;
+  bool event_mode_used; /* the bus terminals are alive */
   double start_time_s;
   double stop_time_s; /* +inf when not given */
   int64_t tick;       /* ticks done; time = start_time_s + tick * tick_us */
@@ -53,6 +60,7 @@ typedef struct hoap2_fmu_instance {
   void *trial_params;            /* parameters on trial */
   void *undo;                    /* model state before a step of several ticks, NULL until needed */
   size_t undo_size;
+  void *network; /* network.h; NULL without bus terminals */
 } hoap2_fmu_instance_t;
 
 /* NULL when memory is short. */
@@ -104,4 +112,7 @@ hoap2_fmu_status_t hoap2_fmu_serialize(hoap2_fmu_instance_t *self, const void *s
 hoap2_fmu_status_t hoap2_fmu_deserialize(hoap2_fmu_instance_t *self, const void *bytes, size_t size,
                                          void **state);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

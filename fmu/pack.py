@@ -70,6 +70,8 @@ def source_files(fmi: str, compiler: str, firmware: list[str], eigen: Path) -> t
             "snapshot.c",
             f"fmi{fmi}.c",
             f"fmi{fmi}_unsupported.c",
+            "no_network.c",
+            *(["fmi3_no_network.c"] if fmi == "3" else []),
             "products/controller.c",
         )
     ]

@@ -7,6 +7,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { HOAP2_FMU_INPUT = 0, HOAP2_FMU_OUTPUT = 1, HOAP2_FMU_PARAMETER = 2, HOAP2_FMU_GROUPS = 3 };
 enum { HOAP2_FMU_REAL = 0, HOAP2_FMU_INT = 1 };
 
@@ -54,4 +58,7 @@ void hoap2_product_get_state(const void *model, void *state);
 int hoap2_product_set_state(void *model, const void *state, size_t size);
 const char *hoap2_product_error(const void *model);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

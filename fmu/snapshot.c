@@ -1,6 +1,6 @@
 /* Snapshots of a whole instance: FMU states, and their form as bytes.
  *
- * bytes: header | instance fields | inputs | outputs | parameters | model state
+ * bytes: header | instance fields | inputs | outputs | parameters | network, if there is one | model state
  * The bytes hold no pointers; both FMI versions of a product share them.
  */
 #include <math.h>
@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "instance.h"
+#include "network.h"
 
 enum { SNAPSHOT_VERSION = 1, BYTE_ORDER_MARK = 0x01020304, MAX_BODY = 1 << 30 };
 static const char MAGIC[8] = {'H', 'O', 'A', 'P', '2', 'F', 'M', 'U'};
@@ -49,7 +50,7 @@ static uint64_t checksum_of(const unsigned char *bytes, size_t size) {
 static size_t frame_size(void) {
   size_t size = sizeof(snapshot_t);
   for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) size += HOAP2_FMU_PRODUCT.group_size[g];
-  return size;
+  return size + hoap2_network_size();
 }
 
 static size_t snapshot_size(const header_t *header) { return sizeof(header_t) + (size_t)header->body_size; }
@@ -64,8 +65,8 @@ static header_t make_header(size_t size) {
   memcpy(header.magic, MAGIC, sizeof MAGIC);
   header.version = SNAPSHOT_VERSION;
   header.byte_order = BYTE_ORDER_MARK;
-  strncpy(header.product, HOAP2_FMU_PRODUCT.name, sizeof header.product - 1);
-  strncpy(header.token, HOAP2_FMU_PRODUCT.token, sizeof header.token - 1);
+  strncpy(header.product, hoap2_network_name(), sizeof header.product - 1);
+  strncpy(header.token, hoap2_network_token(), sizeof header.token - 1);
   header.schema = HOAP2_FMU_PRODUCT.schema;
   header.body_size = size - sizeof(header_t);
   return header;
@@ -106,6 +107,8 @@ hoap2_fmu_status_t hoap2_fmu_get_state(hoap2_fmu_instance_t *self, void **state)
     memcpy(rest, self->group[g], HOAP2_FMU_PRODUCT.group_size[g]);
     rest += HOAP2_FMU_PRODUCT.group_size[g];
   }
+  if (self->network) memcpy(rest, self->network, hoap2_network_size());
+  rest += hoap2_network_size();
   if (self->model_ready) {
     hoap2_product_get_state(self->model, rest);
   } else {
@@ -122,6 +125,10 @@ hoap2_fmu_status_t hoap2_fmu_set_state(hoap2_fmu_instance_t *self, const void *s
   const char *groups = (const char *)(snapshot + 1);
   const char *model = groups;
   for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) model += HOAP2_FMU_PRODUCT.group_size[g];
+  fault = hoap2_network_fault(self, model, ((unsigned)snapshot->fields.mode & (HOAP2_FMU_RUNNING | HOAP2_FMU_TERMINATED)) != 0);
+  if (fault) return hoap2_fmu_error(self, "set state: %s", fault);
+  const char *network = model;
+  model += hoap2_network_size();
   const size_t model_size = snapshot_size(&snapshot->header) - frame_size();
   if (snapshot->fields.model_ready && hoap2_product_set_state(self->model, model, model_size) != 0) {
     return hoap2_fmu_error(self, "set state: %s", hoap2_product_error(self->model));
@@ -130,6 +137,7 @@ hoap2_fmu_status_t hoap2_fmu_set_state(hoap2_fmu_instance_t *self, const void *s
     memcpy(self->group[g], groups, HOAP2_FMU_PRODUCT.group_size[g]);
     groups += HOAP2_FMU_PRODUCT.group_size[g];
   }
+  if (self->network) memcpy(self->network, network, hoap2_network_size());
   self->mode = (hoap2_fmu_mode_t)snapshot->fields.mode;
   self->model_ready = snapshot->fields.model_ready != 0;
   self->tick = snapshot->fields.tick;
@@ -175,9 +183,10 @@ hoap2_fmu_status_t hoap2_fmu_serialize(hoap2_fmu_instance_t *self, const void *s
 /* Values that no instance of ours writes. */
 static bool fields_plausible(const fields_t *fields) {
   const bool mode_ok = fields->mode == HOAP2_FMU_INSTANTIATED || fields->mode == HOAP2_FMU_INITIALISING ||
-                       fields->mode == HOAP2_FMU_STEPPING || fields->mode == HOAP2_FMU_TERMINATED;
+                       fields->mode == HOAP2_FMU_STEPPING || fields->mode == HOAP2_FMU_TERMINATED ||
+                       (fields->mode == HOAP2_FMU_EVENT && hoap2_network_present());
   const bool ready_ok =
-      fields->model_ready == 1 || (fields->model_ready == 0 && fields->mode != HOAP2_FMU_STEPPING);
+      fields->model_ready == 1 || (fields->model_ready == 0 && !((unsigned)fields->mode & HOAP2_FMU_RUNNING));
   return mode_ok && ready_ok && fields->tick >= 0 && isfinite(fields->start_time_s) &&
          !isnan(fields->stop_time_s);
 }

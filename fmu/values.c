@@ -125,7 +125,7 @@ static bool may_set(hoap2_fmu_instance_t *self, bool by_row, const span_t *span)
     hoap2_fmu_error(self, "%s is an output and cannot be set", name_of(by_row, span));
     return false;
   }
-  if (self->mode != HOAP2_FMU_STEPPING || field->tunable) return true;
+  if (!((unsigned)self->mode & HOAP2_FMU_RUNNING) || field->tunable) return true;
   hoap2_fmu_error(self, "%s is fixed: it can be set only before the end of initialisation",
                   name_of(by_row, span));
   return false;
@@ -172,7 +172,7 @@ hoap2_fmu_status_t hoap2_fmu_set(hoap2_fmu_instance_t *self, bool by_row, int ki
     const size_t size = HOAP2_FMU_PRODUCT.group_size[HOAP2_FMU_PARAMETER];
     memcpy(self->trial_params, params, size);
     write_group(self, HOAP2_FMU_PARAMETER, self->trial_params, by_row, kind, references, count, values);
-    if (self->mode == HOAP2_FMU_STEPPING) {
+    if ((unsigned)self->mode & HOAP2_FMU_RUNNING) {
       if (tune(self) != HOAP2_FMU_OK) return HOAP2_FMU_ERROR;
     } else {
       self->model_ready = false;
