@@ -18,6 +18,10 @@ ROOT = FMU.parent
 DEFINITIONS = ("EIGEN_NO_MALLOC", "EIGEN_DONT_VECTORIZE", "EIGEN_NO_DEBUG", "EIGEN_MPL2_ONLY")
 PLATFORM = {"2": "linux64", "3": "x86_64-linux"}
 LICENCES = {"ode.txt": "/usr/share/doc/libode8/copyright", "libccd.txt": "/usr/share/doc/libccd2/copyright"}
+LS_BUS_FILES = {
+    "terminalsAndIcons/terminalsAndIcons.xml": "terminals",
+    "extra/org.fmi-standard.fmi-ls-bus/fmi-ls-manifest.xml": "manifest",
+}
 EIGEN_LICENCE = "/usr/share/doc/libeigen3-dev/copyright"
 
 # Every translation unit is compiled behind this: no tool-specific flags are needed for equal bits.
@@ -120,7 +124,9 @@ def licences(product: str, with_eigen: bool) -> dict[str, bytes]:
 
 def pack_fmu(args: argparse.Namespace) -> None:
     files: dict[str, bytes] = {}
-    xml = (FMU / "generated" / f"{args.product}_fmi{args.fmi}.xml").read_text()
+    generated = FMU / "ls_bus" / "generated" if args.ls_bus else FMU / "generated"
+    name = args.product if args.ls_bus else f"{args.product}_fmi{args.fmi}"
+    xml = (generated / f"{name}.xml").read_text()
     if args.firmware:
         eigen = Path(args.eigen)
         sources, units = source_files(args.fmi, args.compiler, args.firmware, eigen)
@@ -131,13 +137,16 @@ def pack_fmu(args: argparse.Namespace) -> None:
             listed = "\n".join(f"      <File name={quoteattr(name)}/>" for name in units)
             xml = xml.replace("@SOURCE_FILES@", f"    <SourceFiles>\n{listed}\n    </SourceFiles>")
     files["modelDescription.xml"] = xml.replace("@SOURCE_FILES@", "").encode()
-    files["documentation/index.html"] = (FMU / "generated" / f"{args.product}.html").read_bytes()
+    files["documentation/index.html"] = (generated / f"{args.product}.html").read_bytes()
+    if args.ls_bus:
+        for place, kind in LS_BUS_FILES.items():
+            files[place] = (generated / f"{args.product}_{kind}.xml").read_bytes()
     icon = (FMU / "icon.png").read_bytes()
     files["documentation/robot.png"] = icon
     files["model.png" if args.fmi == "2" else "terminalsAndIcons/icon.png"] = icon
     files |= licences(args.product, bool(args.firmware) or args.product == "controller")
     folder = f"binaries/{PLATFORM[args.fmi]}"
-    files[f"{folder}/hoap2_{args.product}.so"] = Path(args.binary).read_bytes()
+    files[f"{folder}/{Path(args.binary).name}"] = Path(args.binary).read_bytes()
     for library in args.library:
         files[f"{folder}/{Path(library).name}"] = Path(library).resolve().read_bytes()
     write_zip(Path(args.out), files)
@@ -156,7 +165,8 @@ def main() -> None:
     fmu = kinds.add_parser("fmu")
     fmu.add_argument("--out", required=True)
     fmu.add_argument("--fmi", choices=("2", "3"), required=True)
-    fmu.add_argument("--product", choices=("controller", "plant"), required=True)
+    fmu.add_argument("--product", choices=("controller", "plant", "can_bus"), required=True)
+    fmu.add_argument("--ls-bus", action="store_true", help="the flavour with bus terminals")
     fmu.add_argument("--binary", required=True)
     fmu.add_argument("--library", nargs="*", default=[], help="shared libraries that lie beside the binary")
     fmu.add_argument("--firmware", nargs="*", default=[], help="firmware sources to carry along")

@@ -54,3 +54,10 @@ def can_library() -> Path:
 def fmu(product: str, fmi: int) -> Path:
     """An FMU of this build: product `controller` or `plant`, fmi 2 or 3."""
     return built(f"fmu/hoap2_{product}_fmi{fmi}.fmu")
+
+
+def ls_bus_fmu(flavour: str) -> Path:
+    """An FMU with bus terminals: `controller`, `plant` or `can_bus`."""
+    from hoap2.generate import ls_bus
+
+    return built(f"fmu/{ls_bus.identifier(flavour)}.fmu")

@@ -8,12 +8,17 @@ from pathlib import Path
 from hoap2 import parameters, paths
 from hoap2.errors import UserError
 from hoap2.fmu.instance import FmuError, FmuInstance
+from hoap2.fmu.ls_bus_loop import LsBusLink, LsBusLoop
+from hoap2.generate import ls_bus
 from hoap2.generate.tables import PRODUCTS
 from hoap2.master import Side
 from hoap2.scenario import Scenario
 from hoap2.signal_log import Column, columns_of
 from hoap2.wall_clock import WallClock
 from hoap2.wiring import DirectLink, Link
+
+
+LS_BUS_LINK = "ls-bus"
 
 
 @dataclass(frozen=True)
@@ -72,11 +77,11 @@ class Products:
                 instance.close()
 
 
-def _open(product: str, path: Path, scenario: Scenario) -> FmuInstance:
-    instance = FmuInstance(path, product)
+def _open(product: str, path: Path, scenario: Scenario, event_mode: bool = False) -> FmuInstance:
+    instance = FmuInstance(path, product, event_mode=event_mode)
     try:
-        values = scenario.values[product]
-        for name, signal in parameters.known(product).items():
+        values = scenario.values.get(product, {})
+        for name, signal in (parameters.known(product) if values else {}).items():
             if name in instance.rows:
                 instance.set_parameters({name: values[name]})
             elif values[name] != signal.default:
@@ -92,6 +97,8 @@ def _open(product: str, path: Path, scenario: Scenario) -> FmuInstance:
 def open_both(choice: Choice, scenario: Scenario) -> Products:
     """Both FMUs, started with the scenario's parameters; UserError when one cannot be used."""
     clock = WallClock()
+    if scenario.link == LS_BUS_LINK:
+        return _open_ls_bus(choice, scenario, clock)
     files = {product: choice.path(product) for product in PRODUCTS}
     link = open_link(scenario)
     opened: list[FmuInstance] = []
@@ -105,6 +112,28 @@ def open_both(choice: Choice, scenario: Scenario) -> Products:
             raise
         raise UserError(str(error)) from None
     return Products(FmuSide(opened[0]), FmuSide(opened[1]), files, tuple(opened), link, clock)
+
+
+def _open_ls_bus(choice: Choice, scenario: Scenario, clock: WallClock) -> Products:
+    """Controller, plant and bus FMU, joined by their bus terminals; the plant's step drives all three."""
+    if choice.fmi != 3:
+        raise UserError("FMI-LS-BUS is for FMI 3.0", "leave out --fmi, or use --link can")
+    named = {"controller": choice.controller, "plant": choice.plant}
+    files = {f: choice.path(f) if named.get(f) else paths.ls_bus_fmu(f) for f in ls_bus.FLAVOURS}
+    opened: list[FmuInstance] = []
+    try:
+        for flavour, path in files.items():
+            opened.append(_open(flavour, path, scenario, event_mode=True))
+        loop = LsBusLoop(*opened)
+    except (FmuError, UserError) as error:
+        for instance in opened:
+            instance.close()
+        if isinstance(error, UserError):
+            raise
+        raise UserError(str(error), "--link ls-bus takes FMUs with bus terminals (docs/ls_bus.md)") from None
+    controller, plant = FmuSide(opened[0]), FmuSide(opened[1])
+    controller.step, plant.step = loop.no_step, loop.advance
+    return Products(controller, plant, files, tuple(opened), LsBusLink(), clock)
 
 
 def open_link(scenario: Scenario) -> Link:

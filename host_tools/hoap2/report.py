@@ -58,7 +58,7 @@ def _head(scenario: Scenario, summary: dict) -> str:
     sensors = {"ideal": "ideal sensors", "hoap2": "sensors as on the robot (preset hoap2)"}[summary["sense"]]
     seed = f"seed {summary['seed']}" if summary["seed"] else "nominal (no seed)"
     section = f"Section {escape(scenario.section)} of the chapter" if scenario.section else ""
-    link = "over CAN" if scenario.link == "can" else ""
+    link = {"can": "over CAN", "ls-bus": "over FMI-LS-BUS"}.get(scenario.link, "")
     facts = [section, escape(scenario.name), seed, sensors, link, f"{summary['duration_s']:.2f} s"]
     return (
         f"<header><h1>{escape(scenario.title)}</h1><p class=facts>{' · '.join(f for f in facts if f)}</p>"

@@ -66,6 +66,7 @@ def resolved_toml(scenario: Scenario, files: dict[str, Path], run_id: int | None
         document[product] = {n: parameters.plain(known[n], v) for n, v in scenario.values[product].items()}
     if scenario.link != "direct":
         document["scenario"]["link"] = scenario.link
+    if scenario.link == "can":
         document["can"] = can_parameters.plain(scenario.can)
     document["bounds"] = {n: {"min": b.low, "max": b.high} for n, b in scenario.bounds.items()}
     record: dict = {"seed": scenario.seed, "version": __version__, "git": git_describe()}

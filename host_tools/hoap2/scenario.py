@@ -46,7 +46,7 @@ class Scenario:
     draws: dict = field(default_factory=dict)
     explicit: set[str] = field(default_factory=set)
     forced: set[str] = field(default_factory=set)
-    link: str = "direct"  # or "can"
+    link: str = "direct"  # or "can", "ls-bus"
     can: dict[str, float] = field(default_factory=can_parameters.defaults)  # of the modelled link
 
     @property
@@ -119,7 +119,7 @@ def _resolve(raw: dict, path: Path, overrides: list[str], sensors: str | None, d
         bounds=bounds.parse(raw.get("bounds", {}), metric_names.NAMES), options=options, explicit=explicit,
         forced=forced, link=_link(head.get("link", "direct")), can=can_parameters.check(raw.get("can", {})),
     )  # fmt: skip
-    if scenario.link == "can" and "controller.stale_limit_ticks" not in explicit:
+    if scenario.link != "direct" and "controller.stale_limit_ticks" not in explicit:
         values["controller"]["stale_limit_ticks"] = (float(can_parameters.STALE_LIMIT_TICKS),)
     if scenario.link != "can" and raw.get("can"):
         raise UserError("[can] is for runs over CAN", "add link = \"can\" to [scenario], or --link can")

@@ -1,13 +1,14 @@
-"""`bench can`: what the frames of a tick cost, and the modelled link."""
+"""`bench can`: what the frames of a tick cost, the modelled link, and the loop of the three FMUs with bus terminals."""
 
 from __future__ import annotations
 
 import ctypes
+import time
 from collections.abc import Callable
 
 import numpy as np
 
-from hoap2 import parameters, paths
+from hoap2 import parameters, paths, products, scenario
 from hoap2.bench import measure
 from hoap2.can import library
 from hoap2.generate import can_table
@@ -70,6 +71,24 @@ def _link(loops: ctypes.CDLL) -> dict:
     return vars(measure.Spread.of(ns[WARM_UP:]))
 
 
+def _ls_bus() -> dict:
+    """A tick of floor-walk in the host loop: all three FMUs, and their outputs read."""
+    loaded = scenario.load("floor-walk", ["scenario.link=ls-bus"], None, None)
+    both = products.open_both(products.Choice(), loaded)
+    ns = np.zeros(TICKS, dtype=np.int64)
+    try:
+        step, reads, now = both.plant.step, (both.controller.get_outputs, both.plant.get_outputs), time.perf_counter_ns
+        for k in range(TICKS):
+            began = now()
+            step()
+            for read in reads:
+                read()
+            ns[k] = now() - began
+    finally:
+        both.close()
+    return vars(measure.Spread.of(ns[WARM_UP:]))
+
+
 def run(repeat: int, status: Callable[[str], None]) -> dict:
     """Medians over the repetitions."""
     loops, layouts = _loops(), frames_of_a_tick()
@@ -79,7 +98,7 @@ def run(repeat: int, status: Callable[[str], None]) -> dict:
         machine = measure.machine(core)
         for i in range(repeat):
             status(f"frames and link, {i + 1} of {repeat}")
-            runs.append({"codec": _codec(loops, layouts, raw), "link_us": _link(loops)})
+            runs.append({"codec": _codec(loops, layouts, raw), "link_us": _link(loops), "ls_bus_us": _ls_bus()})
     lengths = [can_table.load().frames[i].length for i in layouts]
     return {"frames": len(layouts), "bytes": sum(lengths), "machine": machine, **measure.medians(runs), "runs": runs}
 
@@ -95,7 +114,8 @@ def show(document: dict) -> None:
         table.add_column(name, justify="right" if name else "left")
     codec = document["codec"]
     rows = (("encode", codec["encode_us"]), ("decode", codec["decode_us"]), ("both", codec["both_us"]),
-            ("link: nodes, boards, both buses", document["link_us"]))  # fmt: skip
+            ("link: nodes, boards, both buses", document["link_us"]),
+            ("LS-BUS: three FMUs in the host loop", document["ls_bus_us"]))  # fmt: skip
     for name, spread in rows:
         table.add_row(name, f"{spread['median']:.2f}", f"{spread['p99']:.2f}")
     console = Console(highlight=False, soft_wrap=True)

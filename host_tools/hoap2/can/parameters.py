@@ -8,7 +8,7 @@ from hoap2 import parameters
 from hoap2.errors import UserError
 from hoap2.generate import can_table
 
-LINKS = ("direct", "can")
+LINKS = ("direct", "can", "ls-bus")
 # The controller gives up in the fifth tick without a board's measurements, as the boards do without its heartbeat.
 STALE_LIMIT_TICKS = can_table.load().raw["alive_limit_ticks"] - 1
 

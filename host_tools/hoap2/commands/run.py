@@ -19,7 +19,7 @@ def command(
     seeds: Annotated[str | None, typer.Option(metavar="RANGE", help="A study over seeds: 1-20 or 1,3,5-7.")] = None,
     sensors: Annotated[str | None, typer.Option(metavar="ideal|hoap2", help="Sensor preset.")] = None,
     link: Annotated[
-        str | None, typer.Option(metavar="direct|can", help="How controller and plant are connected.")
+        str | None, typer.Option(metavar="direct|can|ls-bus", help="How controller and plant are connected.")
     ] = None,
     duration: Annotated[float | None, typer.Option(metavar="SECONDS", help="Simulated time.")] = None,
     out: Annotated[

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import UserError
+from ..generate import ls_bus
 from ..generate.tables import PRODUCTS
 from ..paths import ROOT, build_dir
 
@@ -17,19 +18,23 @@ VERSIONS = (2, 3)
 
 @dataclass(frozen=True)
 class FmuSet:
-    """The four FMUs and the SSP of one build."""
+    """The FMUs and the SSP of one build."""
 
     folder: Path
 
     def fmu(self, product: str, version: int) -> Path:
         return self.folder / f"hoap2_{product}_fmi{version}.fmu"
 
+    def ls_bus(self, flavour: str) -> Path:
+        return self.folder / f"{ls_bus.identifier(flavour)}.fmu"
+
     @property
     def ssp(self) -> Path:
         return self.folder / "hoap2.ssp"
 
     def files(self) -> list[Path]:
-        return [self.fmu(product, version) for product in PRODUCTS for version in VERSIONS] + [self.ssp]
+        of_signals = [self.fmu(product, version) for product in PRODUCTS for version in VERSIONS]
+        return [*of_signals, *(self.ls_bus(flavour) for flavour in ls_bus.FLAVOURS), self.ssp]
 
     def require(self) -> None:
         """UserError when a file is missing."""
@@ -57,7 +62,8 @@ def build() -> FmuSet:
     if not (folder / "CMakeCache.txt").exists():
         preset = ["--preset", "release", "-B", str(folder), f"-DPython3_EXECUTABLE={sys.executable}"]
         _run([_cmake(), *preset], "configuring failed")
-    targets = [f"hoap2_{product}_fmi{version}_fmu" for product in PRODUCTS for version in VERSIONS] + ["hoap2_ssp"]
+    targets = [f"hoap2_{product}_fmi{version}_fmu" for product in PRODUCTS for version in VERSIONS]
+    targets += [f"{ls_bus.identifier(flavour)}_fmu" for flavour in ls_bus.FLAVOURS] + ["hoap2_ssp"]
     _run([_cmake(), "--build", str(folder), "--target", *targets], "the build failed")
     files = built()
     files.require()

@@ -78,9 +78,9 @@ class Check:
 
 def all_checks(quick: bool) -> list[Check]:
     """Every check in the order in which they run; quick leaves out the compilation of the sources."""
-    from . import check_files, check_importers, check_runs
+    from . import check_files, check_importers, check_ls_bus, check_runs
 
-    return [*check_files.checks(quick), *check_runs.checks(), *check_importers.checks()]
+    return [*check_files.checks(quick), *check_runs.checks(), *check_importers.checks(), *check_ls_bus.checks()]
 
 
 def run_checks(

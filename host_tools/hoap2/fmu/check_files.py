@@ -38,7 +38,7 @@ def validate(context: Context, product: str, version: int) -> str:
     return "no findings"
 
 
-def _schema_findings(text: bytes, schema: Path) -> list[str]:
+def schema_findings(text: bytes, schema: Path) -> list[str]:
     judge = etree.XMLSchema(etree.parse(str(schema)))
     document = etree.fromstring(text)
     return [] if judge.validate(document) else [str(e) for e in judge.error_log][:3]
@@ -56,7 +56,7 @@ def schemas(context: Context, product: str, version: int) -> str:
         for name in [n for n in wanted if n in archive.namelist()]:
             text = archive.read(name)
             require(b"xmlns:xsi" not in text, f"{name} names the schema instance, which some importers refuse")
-            findings = _schema_findings(text, folder / wanted[name])
+            findings = schema_findings(text, folder / wanted[name])
             require(not findings, f"{name}: {'; '.join(findings)}")
             judged.append(Path(name).name)
     return ", ".join(judged)
@@ -138,7 +138,7 @@ def ssp(context: Context) -> str:
         for product in PRODUCTS:
             inside = archive.read(f"resources/hoap2_{product}_fmi2.fmu")
             require(inside == context.files.fmu(product, 2).read_bytes(), f"the {product} FMU inside is another one")
-    findings = _schema_findings(text, SSP_SCHEMAS / "SystemStructureDescription.xsd")
+    findings = schema_findings(text, SSP_SCHEMAS / "SystemStructureDescription.xsd")
     require(not findings, "; ".join(findings))
     root = etree.fromstring(text)
     found = [

@@ -30,9 +30,14 @@ class FmuInstance(WithStates):
     """A Co-Simulation FMU, FMI 2.0 or 3.0, with the variables of signals.toml."""
 
     def __init__(
-        self, source: str | Path | FmuArchive, product: str | None = None, name: str | None = None, logging: bool = True
+        self,
+        source: str | Path | FmuArchive,
+        product: str | None = None,
+        name: str | None = None,
+        logging: bool = True,
+        event_mode: bool = False,
     ):
-        """source: an FMU file, or an archive that several instances share."""
+        """source: an FMU file, or an archive that several instances share. event_mode: see ls_bus_loop.py."""
         self._own_archive = not isinstance(source, FmuArchive)
         self.archive = FmuArchive(source, product) if self._own_archive else source
         self.version, self.product, self.rows = self.archive.version, self.archive.product, self.archive.rows
@@ -45,7 +50,7 @@ class FmuInstance(WithStates):
         self.component: ctypes.c_void_p | None = None
         self.initialised = False
         try:
-            self._load(logging)
+            self._load(logging, event_mode)
         except BaseException:
             self.close()
             raise
@@ -53,7 +58,7 @@ class FmuInstance(WithStates):
 
     # --- set-up ---
 
-    def _load(self, logging: bool) -> None:
+    def _load(self, logging: bool, event_mode: bool) -> None:
         description = self.archive.description
         kind = fmpy.fmi2.FMU2Slave if self.version == 2 else fmpy.fmi3.FMU3Slave
         token = description.guid if self.version == 2 else description.instantiationToken
@@ -67,7 +72,7 @@ class FmuInstance(WithStates):
             if self.version == 2:
                 self.fmu.instantiate(loggingOn=logging, callbacks=self._fmi2_callbacks())
             else:
-                self.fmu.instantiate(loggingOn=logging, logMessage=self._keep_fmi3)
+                self.fmu.instantiate(loggingOn=logging, eventModeUsed=event_mode, logMessage=self._keep_fmi3)
         except Exception as e:
             raise FmuFileError(f"{self.archive.path}: the FMU cannot be started: {e}{self._logged()}") from e
         self.component = self.fmu.component

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from . import c_headers, can_c, can_dbc, can_page, can_table, fmi, fmi_pages, lcm_types, mjcf, pages, ssp, urdf
+from . import c_headers, can_c, can_dbc, can_page, can_table, fmi, fmi_pages, lcm_types, ls_bus, mjcf, pages, ssp, urdf
 from .tables import PRODUCTS, ROOT, Table, load
 
 
@@ -49,6 +49,7 @@ def _can_outputs(table: Table) -> dict[str, str]:
     out = {f"{folder}/can_table.h": can_c.header(can), f"{folder}/can_table.c": can_c.source(can),
            "sim/include/hoap2_link/generated/disturbances.h": can_c.disturbances_header(can),
            "docs/generated/can.md": can_page.page(can, table)}  # fmt: skip
+    out |= ls_bus.files(table, can)
     return out | {f"{folder}/hoap2_{name}.dbc": can_dbc.dbc(can, table, bus) for bus, name in enumerate(can.buses)}
 
 

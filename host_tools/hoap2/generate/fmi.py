@@ -109,7 +109,7 @@ def _units(table: Table, product: str) -> str:
     return "\n".join(out + ["  </UnitDefinitions>"])
 
 
-def _categories() -> str:
+def categories() -> str:
     inner = "".join(
         f"\n    <Category name={quoteattr(k)} description={quoteattr(v)}/>" for k, v in LOG_CATEGORIES.items()
     )
@@ -140,7 +140,7 @@ def fmi2_xml(table: Table, product: str, source_files: bool) -> str:
         'canGetAndSetFMUstate="true" canSerializeFMUstate="true" canNotUseMemoryManagementFunctions="true"'
         + (">\n@SOURCE_FILES@\n  </CoSimulation>" if source_files else "/>"),
         _units(table, product),
-        _categories(),
+        categories(),
         f'  <DefaultExperiment startTime="0" stepSize="{table.tick_us / 1e6!r}"/>',
         "  <ModelVariables>",
     ]
@@ -183,7 +183,7 @@ def fmi3_xml(table: Table, product: str) -> str:
         f'  <CoSimulation modelIdentifier="hoap2_{product}" canHandleVariableCommunicationStepSize="true" '
         f'fixedInternalStepSize="{step}" canGetAndSetFMUState="true" canSerializeFMUState="true"/>',
         _units(table, product),
-        _categories(),
+        categories(),
         f'  <DefaultExperiment startTime="0" stepSize="{step}"/>',
         "  <ModelVariables>",
         '    <Float64 name="time" valueReference="0" causality="independent" variability="continuous" '
