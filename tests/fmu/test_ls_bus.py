@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import random
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from hoap2.fmu.check_ls_bus import FIRST_BYTES, first_sent
 from hoap2.fmu.instance import FmuInstance
 from hoap2.fmu.ls_bus_loop import LsBusLoop, Terminals, open_loop
 from hoap2.generate import can_table, ls_bus
+from hoap2.generate.tables import load
 
 NOT_YET_KNOWN, UNCHANGED, CHANGED = 0, 1, 2
 UNKNOWN = bytes.fromhex("ff000000 08000000")
@@ -226,6 +228,12 @@ def loop(files: FmuSet):
         fmu.close()
 
 
+def give(take: Callable[[int, int, int], None], place: int, data: bytes) -> None:
+    """Bytes for a terminal, from a buffer that lives as long as the call."""
+    buffer = ctypes.create_string_buffer(data, len(data))
+    take(place, ctypes.addressof(buffer), len(data))
+
+
 class Nobody:
     """A wire that ends."""
 
@@ -253,8 +261,7 @@ def test_nonsense_on_the_wire_does_not_touch_the_walk(files: FmuSet, loop: LsBus
 
     def disturbed(place: int, address: int, size: int) -> None:
         take(place, address, size)
-        noise = UNKNOWN + rng.randbytes(30)
-        take(place, ctypes.addressof(ctypes.create_string_buffer(noise)), len(noise))
+        give(take, place, UNKNOWN + rng.randbytes(30))
 
     loop.controller.take = disturbed
     loop.advance(300)
@@ -281,3 +288,34 @@ def test_an_fmu_without_terminals_is_refused_by_the_loop(files: FmuSet) -> None:
     with pytest.raises(FmuFileError, match="event mode is not offered"):
         open_loop({"controller": files.fmu("controller", 3), "plant": files.ls_bus("plant"),
                    "can_bus": files.ls_bus("can_bus")})  # fmt: skip
+
+
+def stop_of(board: str) -> bytes:
+    """A board's emergency stop as an operation."""
+    from hoap2.can import library
+
+    frames = can_table.load().frames
+    layout = next(i for i, f in enumerate(frames) if f.name == f"stop_{board}")
+    frame, raw = library.Frame(), (ctypes.c_int32 * 24)(1)
+    assert library.load().hoap2_can_encode(layout, 1, raw, ctypes.byref(frame)) == 0
+    data = bytes(frame.data[: frame.length])
+    operation = frame.identifier.to_bytes(4, "little") + b"\0\1\0" + len(data).to_bytes(2, "little") + data
+    return (0x11).to_bytes(4, "little") + (8 + len(operation)).to_bytes(4, "little") + operation
+
+
+@pytest.mark.parametrize("sender", ["r_leg", "r_foot"])
+def test_a_board_stops_the_others_on_its_bus_then_the_controller_the_other_bus(loop: LsBusLoop, sender: str) -> None:
+    loop.advance(20)
+    plant = loop.plant.fmu
+    names = [j["name"] for j in load().robot["joints"]]
+    position, damped = 1, 3
+    arms = [names.index("r_elbow"), names.index("l_elbow")]
+    assert (plant.get("drive_mode")[arms] == position).all()
+    boards = ls_bus.terminals(can_table.load(), ls_bus.BUS).index("right_boards")
+    give(loop.bus.take, boards, stop_of(sender))
+    loop.bus.receive()
+    loop.bus.update()
+    loop.advance(1)
+    assert list(plant.get("drive_mode")[arms]) == [damped, position], "the boards on its own bus heard it"
+    loop.advance(1)
+    assert (plant.get("drive_mode")[arms] == damped).all(), "the controller told the other bus"
