@@ -9,14 +9,16 @@
   if (!hoap2_fmu_allowed(instance, __func__, modes)) return fmi3Error
 
 /* The terminal of a reference that must be one of these two members; NULL and a log otherwise. */
-static hoap2_ls_terminal_t *find(hoap2_fmu_instance_t *self, unsigned reference, int member, int or_member, int *found) {
+static hoap2_ls_terminal_t *find(hoap2_fmu_instance_t *self, unsigned reference, int member, int or_member,
+                                 int *found) {
   hoap2_ls_terminal_t *terminal = hoap2_ls_find(self, reference, found);
   if (!terminal || *found == member || *found == or_member) return terminal;
   hoap2_fmu_error(self, "value reference %u has another type", reference);
   return NULL;
 }
 
-static bool arguments_ok(hoap2_fmu_instance_t *self, const void *references, size_t count, const void *a, const void *b) {
+static bool arguments_ok(hoap2_fmu_instance_t *self, const void *references, size_t count, const void *a,
+                         const void *b) {
   if (count == 0 || (references && a && b)) return true;
   hoap2_fmu_error(self, "an argument is NULL");
   return false;

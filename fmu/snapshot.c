@@ -125,7 +125,8 @@ hoap2_fmu_status_t hoap2_fmu_set_state(hoap2_fmu_instance_t *self, const void *s
   const char *groups = (const char *)(snapshot + 1);
   const char *model = groups;
   for (int g = 0; g < HOAP2_FMU_GROUPS; ++g) model += HOAP2_FMU_PRODUCT.group_size[g];
-  fault = hoap2_network_fault(self, model, ((unsigned)snapshot->fields.mode & (HOAP2_FMU_RUNNING | HOAP2_FMU_TERMINATED)) != 0);
+  const unsigned initialised = (unsigned)snapshot->fields.mode & (HOAP2_FMU_RUNNING | HOAP2_FMU_TERMINATED);
+  fault = hoap2_network_fault(self, model, initialised != 0);
   if (fault) return hoap2_fmu_error(self, "set state: %s", fault);
   const char *network = model;
   model += hoap2_network_size();

@@ -21,7 +21,7 @@ typedef struct {
   const char *name;  /* modelIdentifier */
   const char *token; /* instantiationToken */
   int terminals;     /* at most HOAP2_LS_TERMINALS */
-  int is_bus;        /* its transmit clocks count down to the next whole tick; those of a node tick as soon as it has sent */
+  int is_bus; /* its transmit clocks count down to the next whole tick; those of a node tick once it has sent */
   size_t size;       /* of its state, a plain struct */
   void (*start)(void *side);
   void (*receive)(void *side, int terminal, const hoap2_can_frame_t *frame, int64_t now_ns);

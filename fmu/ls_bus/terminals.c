@@ -222,7 +222,8 @@ hoap2_fmu_status_t hoap2_network_do_step(hoap2_fmu_instance_t *self, double now_
   while ((network->tick + 1) * TICK_NS <= end_ns) {
     do_due_tick(self); /* no event mode since it was reached: nothing can have come in */
     if (HOAP2_LS_SIDE.advance(self, side_of(network), network->tick) != 0) {
-      status = hoap2_fmu_error(self, "tick %lld failed: %s", (long long)network->tick, hoap2_product_error(self->model));
+      status = hoap2_fmu_error(self, "tick %lld failed: %s", (long long)network->tick,
+                               hoap2_product_error(self->model));
       if (before) hoap2_fmu_set_state(self, before);
       break;
     }

@@ -16,7 +16,8 @@ def walk(link: str, sensors: str = "hoap2") -> master.Outcome:
     loaded = scenario.load("floor-walk", [f"scenario.link={link}", f"scenario.sensors={sensors}"], None, None)
     both = products.open_both(products.Choice(), loaded)
     try:
-        return master.run(both.controller, both.plant, runner.ticks_of(loaded), 1.0, master.StopRequest(), link=both.link)
+        ticks = runner.ticks_of(loaded)
+        return master.run(both.controller, both.plant, ticks, 1.0, master.StopRequest(), link=both.link)
     finally:
         both.close()
 

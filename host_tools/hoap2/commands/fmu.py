@@ -1,4 +1,4 @@
-"""`fmu`: build the four FMUs and the SSP, and judge them."""
+"""`fmu`: build the FMUs and the SSP, and judge them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import typer
 app = typer.Typer(
     add_completion=False,
     no_args_is_help=True,
-    help="The FMUs: controller and plant, each for FMI 2.0 and FMI 3.0, and hoap2.ssp with both.",
+    help="The FMUs: controller and plant for FMI 2.0, FMI 3.0, FMI-LS-BUS (with the bus), and hoap2.ssp.",
 )
 Json = Annotated[bool, typer.Option("--json", help="Machine-readable, on standard output.")]
 
@@ -36,7 +36,7 @@ def check(
     quick: Annotated[bool, typer.Option("--quick", help="Leave out the compilation of the sources.")] = False,
     json: Json = False,
 ) -> int:
-    """Judge the FMUs: schemas, fmpy, libcosim, states, steps, instances, threads, bad input.
+    """Judge the FMUs: schemas, fmpy, libcosim, states, steps, instances, threads, bus terminals, bad input.
 
     Exit code: 0 every check holds, 1 one does not.
     """

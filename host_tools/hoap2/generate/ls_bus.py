@@ -137,8 +137,8 @@ def manifest(flavour: str) -> str:
 def _terminals_section(can: CanTable, flavour: str) -> str:
     rows = "\n".join(f"<li><code>{escape(name)}</code></li>" for name in terminals(can, flavour))
     return (
-        f"<h2>Bus terminals</h2>\n<p>FMI-LS-BUS {VERSION}, CAN. With event mode, frames on these terminals take the place "
-        f"of the values that controller and plant exchange otherwise.</p>\n<ul>\n{rows}\n</ul>\n"
+        f"<h2>Bus terminals</h2>\n<p>FMI-LS-BUS {VERSION}, CAN. With event mode, frames on these terminals take "
+        f"the place of the values that controller and plant exchange otherwise.</p>\n<ul>\n{rows}\n</ul>\n"
     )
 
 
