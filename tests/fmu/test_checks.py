@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import zipfile
 from pathlib import Path
 
 import pytest
 from hoap2.fmu import check as fmu_check
 from hoap2.fmu.build import FmuSet
-from hoap2.fmu.check import Check, Context
+from hoap2.fmu.check import Check, CheckFailed, Context
+from hoap2.fmu.check_importers import fmutool
 
 SLOW = {"built from its sources"}
 CHECKS = fmu_check.all_checks(quick=False)
@@ -40,3 +42,13 @@ def test_a_check_that_breaks_is_a_failure_and_the_others_go_on(
     first, second = fmu_check.run_checks(context)
     assert not first.ok and "boom" in first.detail
     assert second.ok and second.detail == "fine"
+
+
+def test_fmutool_finds_a_wrong_description(context: Context, tmp_path: Path) -> None:
+    wrong = tmp_path / "wrong.fmu"
+    with zipfile.ZipFile(context.files.ls_bus("can_bus")) as good, zipfile.ZipFile(wrong, "w") as bad:
+        for name in good.namelist():
+            text = good.read(name)
+            bad.writestr(name, text.replace(b'causality="input"', b'causality="nonsense"'))
+    with pytest.raises(CheckFailed, match="nonsense"):
+        fmutool(wrong)

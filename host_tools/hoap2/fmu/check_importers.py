@@ -1,12 +1,16 @@
-"""What other importers make of the FMUs: fmpy's own simulation, and libcosim through the SSP."""
+"""What others make of the FMUs: fmpy's own simulation, libcosim through the SSP, fmutool's look at each file."""
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import zipfile
+from pathlib import Path
 
 import fmpy
 import numpy as np
 
+from ..generate import ls_bus
 from .check import Check, CheckFailed, Context, require, require_equal
 from .check_files import subjects
 from .instance import FmuInstance
@@ -83,9 +87,23 @@ def _references(context: Context, product: str) -> tuple[list[int], list[int]]:
         )
 
 
+def fmutool(path: Path) -> str:
+    """`fmutool -check` of the FMU manipulation toolbox; in a process of its own, since it writes to the terminal."""
+    program = "import sys; from fmu_manipulation_toolbox.cli.fmutool import fmutool; sys.exit(fmutool())"
+    done = subprocess.run(
+        [sys.executable, "-c", program, "-input", str(path), "-check"], capture_output=True, text=True, timeout=120
+    )
+    said = [line for line in (done.stdout + done.stderr).splitlines() if line.startswith(("ERROR", "Module", "Import"))]
+    require(done.returncode == 0 and not said, f"exit code {done.returncode}: {'; '.join(said[:3])}")
+    return "no findings"
+
+
 def checks() -> list[Check]:
     """The checks of this file."""
     found = [
         Check("fmpy simulate", f"{p} FMI {v}", lambda c, p=p, v=v: fmpy_simulation(c, p, v)) for p, v in subjects()
     ]
+    look = "fmutool -check"
+    found += [Check(look, f"{p} FMI {v}", lambda c, p=p, v=v: fmutool(c.files.fmu(p, v))) for p, v in subjects()]
+    found += [Check(look, f"{f} LS-BUS", lambda c, f=f: fmutool(c.files.ls_bus(f))) for f in ls_bus.FLAVOURS]
     return [*found, Check("libcosim", "hoap2.ssp", libcosim)]
