@@ -28,7 +28,7 @@ COMMANDS = {
     "bench": "what a tick costs in a whole run (run), beside MuJoCo (plant), its telemetry, CAN",
     "test": "build and run every test (--quick: below five minutes)",
     "generate": "rewrite the generated sources from hoap2.json and signals.toml",
-    "fmu": "build or check the four FMUs",
+    "fmu": "build or check the FMUs",
 }
 EXIT_INTERRUPTED = 130
 
