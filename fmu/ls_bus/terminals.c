@@ -184,7 +184,8 @@ static int64_t end_of_step(hoap2_fmu_instance_t *self, double now_s, double step
     hoap2_fmu_error(self, "a step must start at the current time %.9g s, not at %.9g s", hoap2_fmu_time_s(self), now_s);
     return -1;
   }
-  if (!(step_s > 0.0 && step_s <= LONGEST_STEP_S)) {
+  /* importers make a countdown of 0 a step of 0 */
+  if (!(step_s >= 0.0 && step_s <= LONGEST_STEP_S)) {
     hoap2_fmu_error(self, "a step of %.9g s is not possible", step_s);
     return -1;
   }
@@ -200,6 +201,7 @@ static int64_t end_of_step(hoap2_fmu_instance_t *self, double now_s, double step
   const int64_t whole_ns = (end_ns + TICK_NS / 2) / TICK_NS * TICK_NS;
   if (llabs(end_ns - whole_ns) <= SNAP_NS && whole_ns > network->now_ns) end_ns = whole_ns;
   if (end_ns > network->now_ns) return end_ns;
+  if (step_s == 0.0) return network->now_ns;
   hoap2_fmu_error(self, "a step of %.9g s is shorter than a nanosecond", step_s);
   return -1;
 }
