@@ -52,11 +52,11 @@ def test_the_view_shows_the_robot_from_each_side(replay) -> None:
 
 def test_the_time_line_scrubs_to_the_pose_of_the_log(replay, sand_run: Path) -> None:
     run = recording.load(sand_run)
-    box = replay.page.locator("#scrub-bar").bounding_box()
     poses = []
+    _hold_at(replay, 0.0)
     for share in (0.85, 0.3):
+        box = replay.page.locator("#scrub-bar").bounding_box()
         replay.page.mouse.click(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
-        replay.page.evaluate("monitor.player.playing = false")
         probe = replay.until(lambda p, s=share: abs(p["time"] - s * p["last"]) < 0.02 * p["last"], "the time")
         replay.page.wait_for_timeout(300)
         row = run.row(probe["time"])
